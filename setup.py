@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Install hydra_actuator, with pip or with colcon (ament_python).
+
+ROS 2 itself is an extra: whoever has it from apt needs no second one from PyPI.
+"""
+
+from glob import glob
+
+from setuptools import find_packages, setup
+
+NAME = 'hydra_actuator'
+
+setup(
+    name=NAME,
+    version='0.1.0',
+    description='A fast hydraulic servo-actuator, waves included, as a ROS 2 node',
+    license='Apache-2.0',
+    maintainer='hydra_actuator maintainers',
+    maintainer_email='maintainers@users.noreply.h-seed-1c352a75.example',
+    packages=find_packages(include=[NAME, f'{NAME}.*']),
+    package_data={NAME: ['recording/schemas/**/*']},
+    data_files=[
+        ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
+        (f'share/{NAME}', ['package.xml']),
+        (f'share/{NAME}/config', sorted(glob('config/*'))),
+        (f'share/{NAME}/launch', sorted(glob('launch/*.py'))),
+    ],
+    python_requires='>=3.11,<3.14',
+    install_requires=['setuptools', 'numpy>=1.26', 'numba>=0.59', 'mcap>=1.5', 'PyYAML>=6.0'],
+    extras_require={
+        'test': [
+            'hypothesis', 'matplotlib', 'plotly', 'pytest', 'rosbags', 'ruff', 'scipy',
+        ],
+        'ros': [
+            'ros-jazzy-rclpy', 'ros-jazzy-common-interfaces', 'ros-jazzy-rmw-fastrtps-cpp',
+        ],
+        'report': ['matplotlib', 'plotly'],
+    },
+    zip_safe=False,
+    entry_points={
+        'console_scripts': [
+            'hydra_actuator = hydra_actuator.cli.main:main',
+            'actuator_node = hydra_actuator.cli.main:node_main',
+        ],
+    },
+)
