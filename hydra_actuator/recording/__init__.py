@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Recordings as rosbag2 keeps them: a directory of MCAP files and a metadata.yaml.
+
+Nothing in here imports rclpy; it knows the channels of the actuator, not its physics.
+
+    definitions  the message types: definition texts and type hashes
+    cdr          any message between bytes and a dictionary
+    messages     the messages of this package, and fast encoders for the frequent ones
+    tick         one observation row as messages
+    topics       names, types and quality of service of what is recorded
+    segment      one MCAP file being written
+    metadata     the text of metadata.yaml
+    writer       a recording: directory, metadata, segments
+    queue        a writer behind a thread and a bounded queue
+    scan         one MCAP file being read, finished or not
+    series       the messages of one topic as arrays
+    reader       a recording as arrays over time
+"""
