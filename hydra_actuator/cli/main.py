@@ -12,8 +12,8 @@ Only the module of the verb in use is imported. Such a module offers
   parsed but handed over as the list `arguments.ros_arguments`.
 """
 
-import sys
 from importlib import import_module
+import sys
 
 from hydra_actuator.errors import Failure, InputError
 
