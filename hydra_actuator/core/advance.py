@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Many steps in one compiled call: inputs from a table, limits checked on the way.
+
+The call allocates nothing and releases the interpreter lock. Time is the count of steps times
+the step time, so any split of the steps gives the same bits.
+"""
+
+from hydra_actuator.core.compilation import formula, kernel
+from hydra_actuator.core.observe import find_limits, SOUND
+from hydra_actuator.core.step import step
+
+
+@formula
+def read_inputs(times, table, hold, cursor, time, inputs):
+    """
+    Write the inputs at `time` [s] and return the table row they start from.
+
+    Linear between rows, or (hold) the last row whose time has come; constant beyond both ends.
+    """
+    while cursor + 1 < times.size and times[cursor + 1] <= time:
+        cursor += 1
+    weight = 0.0
+    if not hold and cursor + 1 < times.size and time > times[cursor]:
+        weight = (time - times[cursor]) / (times[cursor + 1] - times[cursor])
+    for k in range(inputs.size):
+        inputs[k] = table[cursor, k]
+        if weight > 0.0:
+            inputs[k] += weight * (table[cursor + 1, k] - table[cursor, k])
+    return cursor
+
+
+@kernel
+def advance(model, state, passes, schedule, inputs, count, check_interval):
+    """
+    Advance `count` steps; return the status code (state.fault holds where and how much).
+
+    schedule: (times (T,) [s], table (T, C), hold); inputs: work (C,), the inputs in force.
+    """
+    times, table, hold = schedule
+    cursor = 0
+    for _ in range(count):
+        time = (state.step[0] + 1) * model.step_time
+        cursor = read_inputs(times, table, hold, cursor, time, inputs)
+        step(model, state, inputs, passes)
+        if state.step[0] % check_interval == 0:
+            code, _ = find_limits(model, state)
+            if code != SOUND:
+                return code
+    code, _ = find_limits(model, state)
+    return code

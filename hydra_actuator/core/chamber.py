@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+A chamber's mesh: anchored at the fixed end, with a partial cell before the moving face.
+
+    node 0      1      2          n    face           whole cells dx, nodes never move
+      |------|------|-- ... --|---s--]                0 <= s < dx, face moves with the piston
+
+The face's arriving wave is interpolated in space. Nodes from n on take their outgoing wave from
+the face's path in time: it left the face g ago, x_face(t - g) = x_node + (c - u) g. With the mean
+u of foot and arrival the acceleration cancels: g = d / (c + (v - u_node)/2), d the distance from
+node to face at arrival. Whole nodes appear and vanish as s leaves [0, dx).
+"""
+
+from hydra_actuator.core.compilation import formula
+from hydra_actuator.core.line import fill_ghosts, interpolate
+
+
+@formula
+def extend_to_face(values, last_node, cells, face_value, fraction):
+    """
+    Fill two nodes beyond the last whole node of a chamber, using the face where it is far enough.
+
+    fraction s/dx [-]: above one half the polynomial runs through the face (an ill-placed point
+    close to the node would amplify rounding); below, through whole nodes alone.
+    """
+    fill_ghosts(values, last_node, -1, cells)
+    if fraction < 0.5 or cells < 2:
+        return
+    here = values[last_node]
+    d_1 = face_value - here
+    d_2 = here - values[last_node - 1]
+    d_3 = values[last_node - 1] - values[last_node - 2]
+    f = fraction
+    # divided differences over offsets -2, -1, 0, f, evaluated at 1 and 2
+    first = d_1 / f
+    second = (first - d_2) / (f + 1.0)
+    third = (second - 0.5 * (d_2 - d_3)) / (f + 2.0)
+    for k in range(1, 3):
+        t = float(k)
+        values[last_node + k] = here + t * (first + (t - f) * (second + (t + 1.0) * third))
+
+
+@formula
+def wave_at_face(state, domain, mesh, third_order, geometry, first_pass):
+    """
+    Return (W [m/s], theta [cells]) arriving at the moving face.
+
+    geometry: (last whole node, face's distance beyond it at arrival in cells). theta counts from
+    the face; first_pass true takes u at the foot alone.
+    """
+    courant, slope, _ = mesh
+    node, distance = geometry
+    wave_p, wave_q = state.wave_p, state.wave_q
+    end = 2 * domain + 1
+    sigma, kappa = courant[node], slope[node]
+    here = 0.5 * (wave_p[node] - wave_q[node])
+    rise = 0.5 * (wave_p[node - 1] - wave_q[node - 1]) - here
+    theta = sigma if first_pass else state.end_theta[end]
+    foot = here + (theta - distance) * rise
+    if first_pass:
+        theta = sigma + kappa * foot
+    else:
+        theta = sigma + 0.5 * kappa * (foot + state.end_velocity[end])
+    wave = interpolate(
+        wave_p[node + 1], wave_p[node], wave_p[node - 1], wave_p[node - 2],
+        theta - distance, third_order)
+    return wave, theta
+
+
+@formula
+def wave_from_face(history, returned, lag, third_order):
+    """
+    Return Q [m/s] that left the face `lag` steps before the new level.
+
+    returned: Q of the new level; history: of the three levels before.
+    """
+    if third_order == 0.0:
+        return returned + lag * (history[0] - returned)
+    d_1 = history[0] - returned
+    d_2 = history[1] - history[0]
+    d_3 = history[2] - history[1]
+    second = 0.5 * (d_2 - d_1)
+    third = (d_3 - 2.0 * d_2 + d_1) * (1.0 / 6.0)
+    return returned + lag * (d_1 + (lag - 1.0) * (second + (lag - 2.0) * third))
+
+
+@formula
+def renew_last_nodes(model, state, domain, new_last, passes):
+    """Write the outgoing wave of the nodes that the face's path feeds, from old last to new."""
+    start, old_last = model.start[domain], state.last[domain]
+    end = 2 * domain + 1
+    face_velocity = state.end_velocity[end]
+    returned = state.end_wave[end] - 2.0 * face_velocity
+    spacing, wave_speed = model.spacing[domain], model.wave_speed[domain]
+    for node in range(old_last, new_last + 1):
+        distance = state.length[domain] - node * spacing
+        p = state.new_p[start + node]
+        q = 0.0
+        here = face_velocity
+        for _ in range(len(passes)):
+            lag = distance / ((wave_speed + 0.5 * (face_velocity - here)) * model.step_time)
+            q = wave_from_face(state.face_q[domain], returned, lag, model.third_order)
+            here = 0.5 * (p - q)
+        state.new_q[start + node] = q

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Build a chain of domains and junctions, and its state at rest, from a plain description.
+
+The mesh: one step time for all; a line has floor(length / (c (1 + max_mach) dt)) cells of its
+own length, so neither length nor wave speed is altered; a chamber has cells of c (1 + max_mach) dt
+from its fixed end and a partial one at the face.
+"""
+
+from dataclasses import dataclass
+import math
+
+import numpy as np
+
+from hydra_actuator.core.line import GHOSTS
+from hydra_actuator.core.records import (
+    JUNCTION, Model, PISTON_PARAMETERS, PISTON_STATE, SOURCE_PARAMETERS, State, VALVE_PARAMETERS,
+)
+
+
+@dataclass(frozen=True)
+class Domain:
+    """
+    A line, or (longest > 0) a chamber that its moving face may stretch to `longest` [m].
+
+    origin: streamline coordinate of node 0 [m]; direction -1 where node 0 is downstream.
+    pressure: initial gauge pressure [Pa], velocity: initial velocity from node 0 on [m/s].
+    """
+
+    name: str
+    length: float
+    area: float
+    wave_speed: float
+    loss_coefficient: float = 0.0
+    pressure: float = 0.0
+    velocity: float = 0.0
+    longest: float = 0.0
+    origin: float = 0.0
+    direction: float = 1.0
+
+
+@dataclass(frozen=True)
+class Junction:
+    """A junction of one to four ends; see hydra_actuator.core.records for what each kind uses."""
+
+    kind: int
+    ends: tuple[int, ...]
+    input: int = 0
+    coefficient: float = 0.0
+    leakage: float = 0.0
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """How a chain is discretised."""
+
+    step_time: float
+    max_mach: float = 0.025
+    iterations: int = 2
+    interpolation: str = 'cubic'
+
+
+def step_time_within(period: float, length: float, cells: int, wave_speed: float,
+                     max_mach: float) -> float:
+    """
+    Return the step time [s]: a whole fraction of `period` [s], at most L/(cells c (1 + max_mach)).
+
+    length: of the whole streamline [m]; wave_speed: the largest [m/s].
+    """
+    longest = length / (cells * wave_speed * (1.0 + max_mach))
+    return period / math.ceil(period / longest * (1.0 - 1e-12))
+
+
+def build_chain(density: float, domains: list[Domain], junctions: list[Junction], mesh: Mesh,
+                **records: np.ndarray) -> tuple[Model, State]:
+    """
+    Return model and state at rest of a chain.
+
+    records: `valve`, `piston`, `source` of their dtypes, shape (1,), where a junction uses them.
+    Raises ValueError for a domain shorter than one cell.
+    """
+    count = len(domains)
+    spacing = np.empty(count)
+    capacity = np.empty(count, np.int64)
+    last = np.empty(count, np.int64)
+    for d, domain in enumerate(domains):
+        spacing[d], last[d], capacity[d] = _cells(domain, mesh)
+    start = GHOSTS + np.concatenate(
+        ([0], np.cumsum(capacity + 1 + 2 * GHOSTS)[:-1])).astype(np.int64)
+    nodes = int(np.sum(capacity + 1 + 2 * GHOSTS))
+    wave_speed = np.array([domain.wave_speed for domain in domains])
+    of_node = np.repeat(np.arange(count), capacity + 1 + 2 * GHOSTS)
+    loss = np.array([domain.loss_coefficient for domain in domains])
+    model = Model(
+        step_time=mesh.step_time, max_mach=mesh.max_mach, density=density,
+        third_order=1.0 if mesh.interpolation == 'cubic' else 0.0,
+        origin=np.array([domain.origin for domain in domains]),
+        direction=np.array([domain.direction for domain in domains]),
+        start=start, capacity=capacity,
+        moving=np.array([int(domain.longest > 0.0) for domain in domains]),
+        spacing=spacing, wave_speed=wave_speed, bulk_modulus=density * wave_speed ** 2,
+        area=np.array([domain.area for domain in domains]),
+        courant=(wave_speed * mesh.step_time / spacing)[of_node],
+        slope=(mesh.step_time / spacing)[of_node],
+        friction=(0.5 * mesh.step_time * loss)[of_node],
+        junctions=_junction_records(junctions),
+        valve=records.get('valve', np.zeros(1, VALVE_PARAMETERS)),
+        piston=records.get('piston', np.zeros(1, PISTON_PARAMETERS)),
+        source=records.get('source', np.zeros(1, SOURCE_PARAMETERS)))
+    state = _empty_state(count, nodes)
+    state.last[:] = last
+    state.length[:] = state.old_length[:] = [domain.length for domain in domains]
+    for d, domain in enumerate(domains):
+        mu = domain.wave_speed * math.log1p(domain.pressure / model.bulk_modulus[d])
+        set_domain(model, state, d, mu + domain.velocity, mu - domain.velocity)
+    return model, state
+
+
+def set_domain(model: Model, state: State, d: int, wave_p, wave_q) -> None:
+    """
+    Set P and Q [m/s] of a whole domain, scalars or arrays over its whole nodes.
+
+    A moving face takes the values of the last node.
+    """
+    nodes = slice(model.start[d] - GHOSTS, model.start[d] + model.capacity[d] + 1 + GHOSTS)
+    whole = slice(model.start[d], model.start[d] + state.last[d] + 1)
+    for field, wave in ((state.wave_p, wave_p), (state.wave_q, wave_q)):
+        field[nodes] = np.asarray(wave).flat[-1]
+        field[whole] = wave
+    last = model.start[d] + state.last[d]
+    state.face_p[d], state.face_q[d] = state.wave_p[last], state.wave_q[last]
+    state.old_velocity[d] = 0.5 * (state.wave_p[last] - state.wave_q[last])
+    state.end_velocity[2 * d + 1] = state.old_velocity[d]
+    first = model.start[d]
+    state.end_velocity[2 * d] = -0.5 * (state.wave_p[first] - state.wave_q[first])
+    state.end_wave[2 * d], state.end_wave[2 * d + 1] = state.wave_q[first], state.wave_p[last]
+    state.new_p[:], state.new_q[:] = state.wave_p, state.wave_q
+
+
+def node_positions(model: Model, state: State, d: int) -> np.ndarray:
+    """Return the distance [m] of a domain's whole nodes from its node 0."""
+    return model.spacing[d] * np.arange(state.last[d] + 1)
+
+
+def _cells(domain: Domain, mesh: Mesh) -> tuple[float, int, int]:
+    shortest = domain.wave_speed * (1.0 + mesh.max_mach) * mesh.step_time
+    cells = int(domain.length / shortest + 1e-9)
+    if cells < 1:
+        raise ValueError(
+            f'{domain.name}: {domain.length:g} m is shorter than one cell of {shortest:.4g} m')
+    if domain.longest > 0.0:
+        return shortest, int(domain.length / shortest), int(domain.longest / shortest) + 1
+    return domain.length / cells, cells, cells
+
+
+def _junction_records(junctions: list[Junction]) -> np.ndarray:
+    records = np.zeros(len(junctions), JUNCTION)
+    for record, junction in zip(records, junctions):
+        ends = junction.ends + (-1,) * (4 - len(junction.ends))
+        record['kind'], record['end'], record['input'] = junction.kind, ends, junction.input
+        record['coefficient'], record['leakage'] = junction.coefficient, junction.leakage
+    return records
+
+
+def _empty_state(domains: int, nodes: int) -> State:
+    return State(
+        wave_p=np.zeros(nodes), wave_q=np.zeros(nodes), new_p=np.zeros(nodes),
+        new_q=np.zeros(nodes), last=np.zeros(domains, np.int64), length=np.zeros(domains),
+        old_length=np.zeros(domains), old_velocity=np.zeros(domains),
+        end_wave=np.zeros(2 * domains), end_velocity=np.zeros(2 * domains),
+        end_theta=np.zeros(2 * domains), face_p=np.zeros(domains),
+        face_q=np.zeros((domains, 4)), spool=np.zeros(4), edge_coefficient=np.zeros(4),
+        valve_velocity=np.zeros(4), ring=np.zeros((6, 4)), piston=np.zeros(1, PISTON_STATE),
+        oil_stored=np.zeros(2), step=np.zeros(1, np.int64), fault=np.zeros(3))

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: Apache-2.0
+r"""
+The piston between two chambers (Jankovic et al., equation 13), a moving boundary of both.
+
+         chamber_1  W_E -> |      | <- W_F  chamber_2         v, x > 0 lengthen chamber_1
+                   A1, p_E | mass | A2, p_F                   load_force > 0 opposes v > 0
+
+    G(v) = m (v - v_k)/dt - th R(v) - (1 - th) R_k,   R = A1 p_E - A2 p_F - k x - delta v - F_load
+    th = max(1/2, 1 - m/(Z dt)), Z = rho c (A1 + A2) + delta,   x = x_k + dt (th v + (1 - th) v_k)
+
+Friction of the seals is set-valued at the new level: the piston rests if |G(0)| is at most the
+breakaway force, else G(v) + sgn(v) F(|v|) = 0 with sgn v = -sgn G(0) (Coulomb and Stribeck).
+End stops: the speed into a stop returns with its sign reversed, times the restitution; a piston
+pressed against a stop rests. Leakage: q = k (p_E - p_F), rho0 q = rho_E A1 (u_E - v).
+Neglected: elasticity of the rod and of the stops, tilting, cushioning.
+"""
+
+import math
+
+from hydra_actuator.core.compilation import formula
+from hydra_actuator.core.fluid import relative_compression
+
+SPEED_TOLERANCE = 3e-8
+MOST_PASSES = 60
+
+
+@formula
+def face_pressures(ends, piston, velocity):
+    """
+    Return (p_E, p_F, stiffness_E, stiffness_F, u_E, u_F) at a piston velocity [m/s].
+
+    ends: waves, wave speeds, bulk moduli, areas of both chambers; stiffness = -dp/dv [Pa s/m];
+    u: the oil's velocity at each face [m/s], v itself unless the piston leaks.
+    """
+    w_1, c_1, chi_1, area_1, w_2, c_2, chi_2, area_2 = ends
+    u_1, u_2 = velocity, velocity
+    m_1 = relative_compression((w_1 - u_1) / c_1)
+    m_2 = relative_compression((w_2 + u_2) / c_2)
+    if piston.leakage > 0.0:
+        for _ in range(MOST_PASSES):
+            flow_1 = (u_1 - velocity) * area_1 * (1.0 + m_1)
+            defect = piston.leakage * (chi_1 * m_1 - chi_2 * m_2) - flow_1
+            z_1 = chi_1 / (c_1 * area_1)
+            z_2 = chi_2 / (c_2 * area_2)
+            change = defect / (1.0 + piston.leakage * (z_1 + z_2))
+            u_1 += change / (area_1 * (1.0 + m_1))
+            m_1 = relative_compression((w_1 - u_1) / c_1)
+            flow_1 = (u_1 - velocity) * area_1 * (1.0 + m_1)
+            u_2 = velocity + flow_1 / (area_2 * (1.0 + m_2))
+            m_2 = relative_compression((w_2 + u_2) / c_2)
+            if abs(change) < SPEED_TOLERANCE * c_1 * area_1 * 1e-3:
+                break
+    stiffness_1 = chi_1 / c_1 * (1.0 + m_1)
+    stiffness_2 = chi_2 / c_2 * (1.0 + m_2)
+    return chi_1 * m_1, chi_2 * m_2, stiffness_1, stiffness_2, u_1, u_2
+
+
+@formula
+def seal_friction(piston, speed):
+    """Return the friction force [N] of the sliding seals at a speed [m/s] and its slope [N s/m]."""
+    if piston.breakaway <= piston.coulomb:
+        return piston.coulomb, 0.0
+    ratio = speed / piston.stribeck_velocity
+    extra = (piston.breakaway - piston.coulomb) * math.exp(-ratio * ratio)
+    return piston.coulomb + extra, -2.0 * extra * ratio / piston.stribeck_velocity
+
+
+@formula
+def implicitness(ends, piston, step_time):
+    """Return theta of the momentum balance: 1/2, more where the mass is light against the oil."""
+    _, c_1, chi_1, area_1, _, c_2, chi_2, area_2 = ends
+    damping = chi_1 / c_1 * area_1 + chi_2 / c_2 * area_2 + piston.viscous
+    return max(0.5, 1.0 - piston.mass / (damping * step_time))
+
+
+@formula
+def momentum_defect(ends, piston, motion, load_force, velocity):
+    """
+    Return (G [N], dG/dv [N s/m], R [N]) at a trial velocity [m/s].
+
+    motion: (position, velocity, R) of the old level, theta, step time.
+    """
+    x_old, v_old, force_old, theta, step_time = motion
+    p_1, p_2, stiffness_1, stiffness_2, _, _ = face_pressures(ends, piston, velocity)
+    area_1, area_2 = ends[3], ends[7]
+    x = x_old + step_time * (theta * velocity + (1.0 - theta) * v_old)
+    force = (area_1 * p_1 - area_2 * p_2 - piston.stiffness * x
+             - piston.viscous * velocity - load_force)
+    defect = (piston.mass * (velocity - v_old) / step_time
+              - theta * force - (1.0 - theta) * force_old)
+    slope = piston.mass / step_time + theta * (
+        area_1 * stiffness_1 + area_2 * stiffness_2 + piston.viscous
+        + piston.stiffness * theta * step_time)
+    return defect, slope, force
+
+
+@formula
+def slide(ends, piston, motion, load_force, guess):
+    """
+    Return the velocity [m/s] of the momentum balance with seal friction, 0 when the seals hold.
+
+    Newton's steps, kept inside a bracket that starts at rest and shrinks at each pass.
+    """
+    direction = 0.0
+    low, high = -math.inf, math.inf
+    velocity = guess
+    if piston.coulomb > 0.0 or piston.breakaway > 0.0:
+        at_rest, slope, _ = momentum_defect(ends, piston, motion, load_force, 0.0)
+        if abs(at_rest) <= max(piston.breakaway, piston.coulomb):
+            return 0.0
+        direction = -math.copysign(1.0, at_rest)
+        if direction > 0.0:
+            low = 0.0
+        else:
+            high = 0.0
+        if velocity * direction <= 0.0:
+            velocity = -at_rest / slope
+    for _ in range(MOST_PASSES):
+        defect, slope, _ = momentum_defect(ends, piston, motion, load_force, velocity)
+        if direction != 0.0:
+            friction, steepness = seal_friction(piston, abs(velocity))
+            defect += direction * friction
+            slope += steepness
+        if defect > 0.0:
+            high = velocity
+        else:
+            low = velocity
+        trial = velocity - defect / slope
+        if not low <= trial <= high:
+            trial = 0.5 * (low + high)
+            if not abs(trial) < math.inf:
+                trial = 2.0 * velocity
+        change = trial - velocity
+        velocity = trial
+        if abs(change) < SPEED_TOLERANCE * ends[1]:
+            break
+    return velocity
+
+
+@formula
+def move_piston(ends, piston, motion, load_force, guess):
+    """Return (position [m], velocity [m/s], hit) after one step, end stops included."""
+    x_old, v_old, _, theta, step_time = motion
+    velocity = slide(ends, piston, motion, load_force, guess)
+    position = x_old + step_time * (theta * velocity + (1.0 - theta) * v_old)
+    if abs(position) <= piston.limit:
+        return position, velocity, 0
+    side = math.copysign(1.0, position)
+    position = side * piston.limit
+    if v_old * side > 0.0:
+        return position, -piston.restitution * v_old, 1
+    return position, 0.0, 0

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+What the step works on: one constant record (Model) and one changing record (State).
+
+A model is a chain of domains (lines and chambers) and of junctions between their ends. Domain d
+has two ends, 2 d (its node 0) and 2 d + 1 (its last node, or the piston's face in a chamber). A
+chamber is always seen from its fixed end towards the piston, so the second chamber is mirrored.
+Outflow velocities are positive out of the domain, whichever end.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+CLOSED, PRESSURE, FLOW, PUMP, ORIFICE, VALVE, PISTON, WALL = range(8)
+
+# A junction names its ends in the order of its drawing, unused ones -1. `input` is the column of
+# the input table it follows: pressure [Pa] (PRESSURE), outflow [m^3/s] (FLOW), velocity [m/s]
+# of a moving wall (WALL), first of two spools (VALVE), load force (PISTON).
+JUNCTION = np.dtype([
+    ('kind', np.int64), ('end', np.int64, 4), ('input', np.int64),
+    ('coefficient', np.float64), ('leakage', np.float64)], align=True)
+
+VALVE_PARAMETERS = np.dtype([
+    ('flow_gain', np.float64, 4), ('overlap', np.float64, 4), ('leakage', np.float64),
+    ('stroke', np.float64), ('natural_frequency', np.float64), ('slew_rate', np.float64),
+    ('transition', np.float64, 4), ('step_time', np.float64)], align=True)
+
+PISTON_PARAMETERS = np.dtype([
+    ('mass', np.float64), ('stiffness', np.float64), ('viscous', np.float64),
+    ('coulomb', np.float64), ('breakaway', np.float64), ('stribeck_velocity', np.float64),
+    ('leakage', np.float64), ('restitution', np.float64), ('limit', np.float64),
+    ('length_1', np.float64), ('length_2', np.float64), ('density', np.float64)], align=True)
+
+# Changed only between calls (supply pressure is a live parameter).
+SOURCE_PARAMETERS = np.dtype([
+    ('pressure', np.float64), ('mu', np.float64), ('max_flow', np.float64),
+    ('accumulator_volume', np.float64), ('precharge', np.float64), ('ambient', np.float64)],
+    align=True)
+
+PISTON_STATE = np.dtype([
+    ('position', np.float64), ('velocity', np.float64), ('force', np.float64),
+    ('new_position', np.float64), ('new_velocity', np.float64), ('new_force', np.float64),
+    ('hit', np.int64), ('stop_hits', np.int64)], align=True)
+
+
+class Model(NamedTuple):
+    """Constants of a chain; shapes: D domains, N nodes with ghosts, J junctions."""
+
+    step_time: float
+    max_mach: float
+    density: float
+    third_order: float
+    origin: np.ndarray          # (D,) streamline coordinate of node 0 [m]
+    direction: np.ndarray       # (D,) +1, or -1 where the domain is mirrored
+    start: np.ndarray           # (D,) index of node 0 in the node arrays
+    capacity: np.ndarray        # (D,) largest index of a whole node within the domain
+    moving: np.ndarray          # (D,) 1 where the far end is a moving face
+    spacing: np.ndarray         # (D,) cell length [m]
+    wave_speed: np.ndarray      # (D,) [m/s]
+    bulk_modulus: np.ndarray    # (D,) [Pa]
+    area: np.ndarray            # (D,) [m^2]
+    courant: np.ndarray         # (N,) c dt/dx [-]
+    slope: np.ndarray           # (N,) dt/dx [s/m]
+    friction: np.ndarray        # (N,) lambda dt/2 [s/m]
+    junctions: np.ndarray       # (J,) JUNCTION
+    valve: np.ndarray           # (1,) VALVE_PARAMETERS
+    piston: np.ndarray          # (1,) PISTON_PARAMETERS
+    source: np.ndarray          # (1,) SOURCE_PARAMETERS
+
+
+class State(NamedTuple):
+    """What a step changes."""
+
+    wave_p: np.ndarray          # (N,) mu + u [m/s], u away from node 0
+    wave_q: np.ndarray          # (N,) mu - u [m/s]
+    new_p: np.ndarray           # (N,) work: the next level
+    new_q: np.ndarray           # (N,)
+    last: np.ndarray            # (D,) index of the last whole node
+    length: np.ndarray          # (D,) length at the new level [m]
+    old_length: np.ndarray      # (D,) length at the old level [m]
+    old_velocity: np.ndarray    # (D,) outflow velocity of the face at the old level [m/s]
+    end_wave: np.ndarray        # (2 D,) wave that arrives [m/s]
+    end_velocity: np.ndarray    # (2 D,) outflow velocity [m/s]
+    end_theta: np.ndarray       # (2 D,) foot of the arriving wave [cells]
+    face_p: np.ndarray          # (D,) P at a moving face
+    face_q: np.ndarray          # (D, 4) Q at a moving face now and one, two, three steps ago
+    spool: np.ndarray           # (4,) displacement, velocity of spool 1, of spool 2
+    edge_coefficient: np.ndarray  # (4,) K' of the valve's edges
+    valve_velocity: np.ndarray  # (4,) work: outflow at A, B, I, J
+    ring: np.ndarray            # (6, 4) work of the valve; row 5 the edge flows [m^3/s]
+    piston: np.ndarray          # (1,) PISTON_STATE
+    oil_stored: np.ndarray      # (2,) accumulator: now, next [m^3]
+    step: np.ndarray            # (1,) int64 steps done
+    fault: np.ndarray           # (3,) status: code, domain, value

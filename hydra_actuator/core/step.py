@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+One time step of a chain, as a list of stages; formulas live in the files they are named after.
+
+    spools move -> ghosts -> sweep of all nodes -> (arriving waves -> junctions) per pass
+    -> ends and chamber meshes take the new level
+"""
+
+import math
+
+from hydra_actuator.core.chamber import extend_to_face, renew_last_nodes, wave_at_face
+from hydra_actuator.core.compilation import formula
+from hydra_actuator.core.fluid import riemann_variable
+from hydra_actuator.core.line import arriving_wave, fill_ghosts, GHOSTS, sweep
+from hydra_actuator.core.orifice import solve_orifice
+from hydra_actuator.core.piston import face_pressures, implicitness, move_piston
+from hydra_actuator.core.records import (
+    CLOSED,
+    FLOW,
+    ORIFICE,
+    PISTON,
+    PRESSURE,
+    PUMP,
+    VALVE,
+    WALL,
+)
+from hydra_actuator.core.source import solve_flow_end, solve_pressure_end, solve_pump
+from hydra_actuator.core.valve import edge_coefficients, move_spool, solve_valve
+
+
+@formula
+def step(model, state, inputs, passes):
+    """Advance the chain by one step time under the inputs of the new level."""
+    mesh = (model.courant, model.slope, model.friction)
+    move_spools(model, state, inputs)
+    continue_beyond_ends(model, state)
+    sweep(state.wave_p, state.wave_q, state.new_p, state.new_q, mesh,
+          state.wave_p.size - 2 * GHOSTS, model.third_order, passes)
+    for k in range(len(passes)):
+        arrive(model, state, mesh, k == 0)
+        for j in range(model.junctions.size):
+            solve_junction(model, state, j, inputs)
+    take_new_level(model, state, passes)
+    state.step[0] += 1
+
+
+@formula
+def move_spools(model, state, inputs):
+    """Move the valve's spools and set the opening of its edges."""
+    for j in range(model.junctions.size):
+        junction = model.junctions[j]
+        if junction.kind == VALVE:
+            valve = model.valve[0]
+            for k in range(2):
+                command = inputs[junction.input + k] * valve.stroke
+                state.spool[2 * k], state.spool[2 * k + 1] = move_spool(
+                    valve, state.spool[2 * k], state.spool[2 * k + 1], command)
+            edge_coefficients(valve, state.spool[0], state.spool[2], state.edge_coefficient)
+
+
+@formula
+def continue_beyond_ends(model, state):
+    """Fill the ghost nodes of all domains."""
+    for d in range(model.start.size):
+        first, cells = model.start[d], state.last[d]
+        last = first + cells
+        fill_ghosts(state.wave_p, first, 1, cells)
+        fill_ghosts(state.wave_q, first, 1, cells)
+        if model.moving[d] == 1:
+            fraction = state.length[d] / model.spacing[d] - cells
+            extend_to_face(state.wave_p, last, cells, state.face_p[d], fraction)
+            extend_to_face(state.wave_q, last, cells, state.face_q[d, 0], fraction)
+        else:
+            fill_ghosts(state.wave_p, last, -1, cells)
+            fill_ghosts(state.wave_q, last, -1, cells)
+
+
+@formula
+def arrive(model, state, mesh, first_pass):
+    """Carry the waves to all ends, with the velocities of the pass before."""
+    for d in range(model.start.size):
+        first, left = model.start[d], 2 * d
+        right = left + 1
+        v_left = math.nan if first_pass else state.end_velocity[left]
+        state.end_wave[left], state.end_theta[left] = arriving_wave(
+            state.wave_q, state.wave_p, first, 0, mesh, model.third_order,
+            (v_left, state.end_theta[left]))
+        last = first + state.last[d]
+        if model.moving[d] == 1:
+            advance = 0.0
+            if first_pass:
+                advance = model.step_time * state.end_velocity[right]
+            distance = (state.length[d] + advance) / model.spacing[d] - state.last[d]
+            state.end_wave[right], state.end_theta[right] = wave_at_face(
+                state, d, mesh, model.third_order, (last, distance), first_pass)
+        else:
+            v_right = math.nan if first_pass else state.end_velocity[right]
+            state.end_wave[right], state.end_theta[right] = arriving_wave(
+                state.wave_p, state.wave_q, last, 1, mesh, model.third_order,
+                (v_right, state.end_theta[right]))
+
+
+@formula
+def end_of(model, state, end):
+    """Return (wave, trial outflow velocity, wave speed, bulk modulus, area) of an end."""
+    d = end // 2
+    return (state.end_wave[end], state.end_velocity[end],
+            model.wave_speed[d], model.bulk_modulus[d], model.area[d])
+
+
+@formula
+def solve_junction(model, state, j, inputs):
+    """Solve one junction: its ends' outflow velocities at the new level."""
+    junction = model.junctions[j]
+    kind, end = junction.kind, junction.end[0]
+    velocity = state.end_velocity
+    if kind == CLOSED:
+        velocity[end] = 0.0
+    elif kind == PRESSURE:
+        wave, _, wave_speed, bulk_modulus, _ = end_of(model, state, end)
+        velocity[end] = solve_pressure_end(
+            wave, riemann_variable(inputs[junction.input], wave_speed, bulk_modulus))
+    elif kind == FLOW:
+        velocity[end] = solve_flow_end(end_of(model, state, end), inputs[junction.input])
+    elif kind == PUMP:
+        velocity[end], state.oil_stored[1] = solve_pump(
+            end_of(model, state, end), model.source[0], state.oil_stored[0], model.step_time)
+    elif kind == ORIFICE:
+        other = junction.end[1]
+        velocity[end], velocity[other] = solve_orifice(
+            end_of(model, state, end), end_of(model, state, other),
+            junction.coefficient, junction.leakage)
+    elif kind == VALVE:
+        solve_valve_junction(model, state, junction)
+    elif kind == PISTON:
+        solve_piston_junction(model, state, junction, inputs)
+    elif kind == WALL:
+        velocity[end] = inputs[junction.input]
+        d = end // 2
+        state.length[d] = (
+            state.old_length[d]
+            + 0.5 * model.step_time * (velocity[end] + state.old_velocity[d]))
+
+
+@formula
+def solve_valve_junction(model, state, junction):
+    """Solve the four edges of the valve."""
+    ends = (
+        end_of(model, state, junction.end[0]), end_of(model, state, junction.end[1]),
+        end_of(model, state, junction.end[2]), end_of(model, state, junction.end[3]))
+    solve_valve(ends, state.valve_velocity, state.edge_coefficient,
+                model.valve[0].leakage, state.ring)
+    for k in range(4):
+        state.end_velocity[junction.end[k]] = state.valve_velocity[k]
+
+
+@formula
+def solve_piston_junction(model, state, junction, inputs):
+    """Move the piston and both faces."""
+    face_1, face_2 = junction.end[0], junction.end[1]
+    d_1, d_2 = face_1 // 2, face_2 // 2
+    piston, motion = model.piston[0], state.piston[0]
+    ends = (
+        state.end_wave[face_1], model.wave_speed[d_1], model.bulk_modulus[d_1], model.area[d_1],
+        state.end_wave[face_2], model.wave_speed[d_2], model.bulk_modulus[d_2], model.area[d_2])
+    theta = implicitness(ends, piston, model.step_time)
+    load_force = inputs[junction.input]
+    old = (motion.position, motion.velocity, motion.force, theta, model.step_time)
+    position, velocity, hit = move_piston(ends, piston, old, load_force, motion.new_velocity)
+    p_1, p_2, _, _, u_1, u_2 = face_pressures(ends, piston, velocity)
+    motion.new_position = position
+    motion.new_velocity = velocity
+    motion.new_force = (
+        model.area[d_1] * p_1 - model.area[d_2] * p_2 - piston.stiffness * position
+        - piston.viscous * velocity - load_force)
+    motion.hit = hit
+    state.end_velocity[face_1] = u_1
+    state.end_velocity[face_2] = -u_2
+    state.length[d_1] = piston.length_1 + position
+    state.length[d_2] = piston.length_2 - position
+
+
+@formula
+def take_new_level(model, state, passes):
+    """Write the ends into the field, move the meshes with their faces, keep the new level."""
+    for d in range(model.start.size):
+        first, left = model.start[d], 2 * d
+        right = left + 1
+        new_last = state.last[d]
+        state.new_q[first] = state.end_wave[left]
+        state.new_p[first] = state.end_wave[left] - 2.0 * state.end_velocity[left]
+        returned = state.end_wave[right] - 2.0 * state.end_velocity[right]
+        if model.moving[d] == 1:
+            new_last = int(state.length[d] / model.spacing[d])
+            if new_last >= 1 and new_last <= model.capacity[d]:
+                renew_last_nodes(model, state, d, new_last, passes)
+                state.last[d] = new_last
+            for k in range(3, 0, -1):
+                state.face_q[d, k] = state.face_q[d, k - 1]
+            state.face_q[d, 0] = returned
+            state.face_p[d] = state.end_wave[right]
+            state.old_length[d] = state.length[d]
+            state.old_velocity[d] = state.end_velocity[right]
+        else:
+            state.new_p[first + new_last] = state.end_wave[right]
+            state.new_q[first + new_last] = returned
+    for i in range(state.wave_p.size):
+        state.wave_p[i] = state.new_p[i]
+        state.wave_q[i] = state.new_q[i]
+    motion = state.piston[0]
+    motion.position, motion.velocity = motion.new_position, motion.new_velocity
+    motion.force = motion.new_force
+    motion.stop_hits += motion.hit
+    motion.hit = 0
+    state.oil_stored[0] = state.oil_stored[1]
