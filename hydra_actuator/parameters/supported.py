@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Options that have their place in the table but are not available in this version.
+
+They are refused, so that none is ever ignored in silence.
+"""
+
+from collections.abc import Mapping
+
+from hydra_actuator.parameters.definition import ParameterError, Value
+from hydra_actuator.parameters.table_hydraulics import LINES
+
+# What is available of each parameter that is restricted.
+AVAILABLE: dict[str, tuple[Value, ...]] = {
+    'fluid.cavitation': (False,),
+    **{f'{line}.friction': ('none', 'constant') for line in LINES},
+    **{f'{line}.youngs_modulus': (0.0,) for line in LINES},
+    'initial.equilibrium': (False,),
+    'timing.mode': ('realtime',),
+    'sensor.position_noise': (0.0,),
+    'sensor.velocity_noise': (0.0,),
+    'sensor.pressure_noise': (0.0,),
+    'sensor.position_resolution': (0.0,),
+    'sensor.pressure_resolution': (0.0,),
+    'sensor.delay': (0.0,),
+    'fault.enabled': (False,),
+}
+
+
+def refuse_unavailable(values: Mapping[str, Value]) -> None:
+    """Raise ParameterError on the first option that this version does not have."""
+    for name, available in AVAILABLE.items():
+        if values[name] not in available:
+            raise ParameterError(
+                f'{name} = {_text(values[name])} is not available in this version; '
+                f'use {" or ".join(map(_text, available))}'
+            )
+
+
+def _text(value: Value) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
