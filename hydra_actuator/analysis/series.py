@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+A recording as plain arrays, on one time axis, for numbers and figures.
+
+Time is in seconds from the first record, pressures are absolute [Pa], x is measured along the
+streamline from pump to tank [m]. Missing parts are empty or None: a picture says so itself.
+"""
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Field:
+    """
+    Pressure and velocity over streamline and time.
+
+    `positions` are those at mid-stroke; the nodes `faces` (of both piston faces) move with the
+    piston. Nodes that the piston has left behind are NaN.
+    """
+
+    time: np.ndarray          # (frames,) [s]
+    positions: np.ndarray     # (nodes,) [m]
+    labels: tuple[str, ...]   # (nodes,) name of the domain
+    pressure: np.ndarray      # (frames, nodes) absolute [Pa]
+    velocity: np.ndarray      # (frames, nodes) [m/s]
+    faces: tuple[int, int] | None
+    source: str
+
+    @property
+    def interval(self) -> float:
+        """Return the median time between frames [s]; infinite for fewer than two frames."""
+        return float(np.median(np.diff(self.time))) if len(self.time) > 1 else np.inf
+
+    def between(self, start: float, end: float) -> 'Field':
+        """Return the frames of start <= time <= end [s], half an interval added."""
+        margin = 0.5 * self.interval if len(self.time) > 1 else 0.0
+        shown = slice(*np.searchsorted(self.time, [start - margin, end + margin]))
+        return Field(
+            self.time[shown], self.positions, self.labels, self.pressure[shown],
+            self.velocity[shown], self.faces, self.source,
+        )
+
+
+@dataclass(frozen=True)
+class Command:
+    """The messages of one command topic: receive time [s], values as sent (messages, n)."""
+
+    topic: str
+    time: np.ndarray
+    values: np.ndarray
+
+
+@dataclass(frozen=True)
+class Report:
+    """One status of /diagnostics: time [s], name, level, message, the texts of its values."""
+
+    time: float
+    name: str
+    level: int
+    message: str
+    values: dict[str, str]
+
+
+@dataclass(frozen=True)
+class Series:
+    """Everything the figures show. Arrays over ticks have the length of `time`."""
+
+    name: str
+    time: np.ndarray                     # (ticks,) [s]
+    position: np.ndarray                 # [m]
+    velocity: np.ndarray                 # [m/s]
+    spool: np.ndarray                    # (ticks, spools) displacement [m]
+    load_force: np.ndarray               # [N]
+    section_names: tuple[str, ...]
+    section_positions: np.ndarray        # (sections,) [m]; empty if not recorded
+    pressure: np.ndarray                 # (ticks, sections) absolute [Pa]
+    flow_velocity: np.ndarray            # (ticks, sections) [m/s]
+    stamps: np.ndarray                   # (ticks,) [ns]
+    field: Field | None = None
+    commands: tuple[Command, ...] = ()
+    applied: Command | None = None
+    diagnostics: tuple[Report, ...] = ()
+    send_delay: np.ndarray = dataclasses.field(default_factory=lambda: np.empty(0))  # [s]
+    parameters: dict = dataclasses.field(default_factory=dict)
+    versions: dict = dataclasses.field(default_factory=dict)
+    source: str = ''
+    path: Path | None = None

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A made-up run with a known shape: stations, field and piston follow plain formulas."""
+
+import numpy as np
+import pytest
+
+from hydra_actuator.analysis.series import Command, Field, Report, Series
+from hydra_actuator.analysis.streamline import DOMAINS, piston_faces, STATIONS
+
+FREQUENCY = 50.0
+STATION_POSITIONS = np.array([0, 0.6, 0.6, 0.8, 0.8, 1, 1, 1.2, 1.2, 1.4, 1.4, 2.0])
+
+
+def level(domain: str, time):
+    """Return the pressure [Pa] of a domain: the same all along it."""
+    swing = 5e6 * np.sin(2 * np.pi * FREQUENCY * np.asarray(time))
+    return {
+        'supply_line': 21e6 + 0 * swing, 'line_1': 11e6 + swing, 'chamber_1': 11e6 + swing,
+        'chamber_2': 11e6 - swing, 'line_2': 11e6 - swing, 'return_line': 2.5e6 + 0 * swing,
+    }[domain]
+
+
+def made_field(time: np.ndarray, piston: np.ndarray, spacing: float = 0.02) -> Field:
+    """Return a field on an even mesh; what the piston has left behind is NaN."""
+    ends = [(0, 0.6), (0.6, 0.8), (0.8, 1.1), (0.9, 1.2), (1.2, 1.4), (1.4, 2.0)]
+    places, labels = [], []
+    for domain, (first, last) in zip(DOMAINS, ends):
+        nodes = list(np.linspace(first, last, round((last - first) / spacing) + 1))
+        nodes += [1.0] * (domain == 'chamber_1')
+        nodes = [1.0] * (domain == 'chamber_2') + nodes
+        places += nodes
+        labels += [domain] * len(nodes)
+    places, labels = np.array(places), tuple(labels)
+    faces = piston_faces(labels)
+    pressure = np.stack([level(domain, time) for domain in labels], axis=1)
+    face = 1.0 + piston[:, None]
+    moving = np.isin(np.arange(len(places)), faces)
+    labelled = np.array(labels)
+    behind = ((labelled == 'chamber_1') & ~moving & (places > face)) | (
+        (labelled == 'chamber_2') & ~moving & (places < face))
+    pressure[behind] = np.nan
+    velocity = np.where(behind, np.nan, 0.1)
+    return Field(time, places, labels, pressure, velocity, faces, 'the field')
+
+
+def made_run(duration: float = 1.0, field_rate: float = 1000.0) -> Series:
+    """Return a run at 1 kHz whose piston moves at 50 Hz."""
+    time = np.arange(round(duration * 1000) + 1) / 1000
+    angle = 2 * np.pi * FREQUENCY * time
+    position = 0.012 * np.sin(angle)
+    frames = np.arange(round(duration * field_rate) + 1) / field_rate
+    reports = tuple(
+        Report(float(k), '/actuator: Real time', 0, 'in time',
+               {'ticks': str(k * 1000), 'overruns': str(k), 'lateness_p50': '60',
+                'lateness_p99': '140', 'lateness_max': '900'})
+        for k in range(1, 4)
+    )
+    return Series(
+        name='made_run', time=time, position=position, velocity=np.gradient(position, time),
+        spool=5e-4 * np.sin(angle)[:, None], load_force=np.zeros(len(time)),
+        section_names=STATIONS, section_positions=STATION_POSITIONS,
+        pressure=np.stack([level(DOMAINS[k // 2], time) for k in range(12)], axis=1),
+        flow_velocity=np.full((len(time), 12), 0.1),
+        stamps=(1_700_000_000_000_000_000 + np.arange(len(time)) * 1_000_000),
+        field=made_field(frames, np.interp(frames, time, position)),
+        commands=(Command('/actuator/spool_command', time, np.sin(angle)[:, None]),),
+        diagnostics=reports, send_delay=np.full(len(time), 1e-4),
+        parameters={'valve.stroke': 5e-4, 'tank.pressure': 2.4e6},
+        versions={'hydra_actuator': '0.1.0'}, source='node',
+    )
+
+
+@pytest.fixture
+def make_run():
+    """Return the maker of runs: (duration [s], rate of the field [Hz]) to Series."""
+    return made_run
+
+
+@pytest.fixture
+def run() -> Series:
+    """Return a run of one second with everything in it."""
+    return made_run()
