@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The numbers of a run, in words: duration, ticks, stroke, extreme pressures, real time."""
+
+import numpy as np
+
+from hydra_actuator.analysis import timing
+from hydra_actuator.analysis.figure import MEGAPASCAL, MICRO, MILLI
+from hydra_actuator.analysis.series import Series
+from hydra_actuator.analysis.window import dominant_frequency
+from hydra_actuator.parameters.table import definitions
+
+Rows = list[tuple[str, str]]
+
+
+def run_facts(series: Series) -> Rows:
+    """Return the facts of the run as (what, value with unit)."""
+    time = series.time
+    duration = float(time[-1] - time[0])
+    rows = [('duration', f'{duration:.6g} s'), ('states', f'{len(time):,}'.replace(',', ' '))]
+    if duration > 0:
+        rows.append(('rate of the states', f'{(len(time) - 1) / duration:.6g} Hz'))
+    low, high = float(series.position.min()) * MILLI, float(series.position.max()) * MILLI
+    rows += [
+        ('piston travel', f'{high - low:.4g} mm, from {low:+.4g} to {high:+.4g} mm'),
+        ('greatest piston speed', f'{np.abs(series.velocity).max():.4g} m/s'),
+        ('dominant frequency', _frequency(series)),
+    ]
+    if series.pressure.size:
+        rows += [(f'{word} pressure', _extreme_pressure(series, word))
+                 for word in ('highest', 'lowest')]
+    for command in series.commands:
+        rows.append((f'messages on {command.topic}', str(len(command.time))))
+    if series.field is not None:
+        rows.append(('field', f'{len(series.field.time)} frames of {len(series.field.positions)} '
+                     f'nodes, {1 / series.field.interval:.4g} Hz'))
+    rows.append(('written by', series.source or 'unknown'))
+    return rows + [(f'version of {name}', str(text)) for name, text in series.versions.items()]
+
+
+def real_time_facts(series: Series) -> Rows:
+    """Return real-time statistics over the whole run as (what, value with unit)."""
+    rows: Rows = []
+    reports = timing.real_time_reports(series)
+    if reports:
+        rows += [(key.replace('_', ' '), text) for key, text in reports[-1].values.items()]
+    steps = timing.stamp_steps(series)
+    if steps is not None:
+        worst = np.abs(steps.deviation).max() * MICRO
+        missing = int(np.sum(np.maximum(np.rint(steps.deviation / steps.period), 0)))
+        rows += [('greatest deviation of a stamp step', f'{worst:.4g} us'),
+                 ('missing ticks between stamps', str(missing))]
+    if len(series.send_delay) and series.source != 'simulate':
+        p50, p99, top = np.percentile(series.send_delay, [50, 99, 100]) * MICRO
+        rows.append(('sending after the stamp, p50 / p99 / max',
+                     f'{p50:.0f} / {p99:.0f} / {top:.0f} us'))
+    return rows
+
+
+def _extreme_pressure(series: Series, word: str) -> str:
+    """Return the highest or lowest pressure of all sections, where and when."""
+    choose = np.nanargmax if word == 'highest' else np.nanargmin
+    if not np.any(np.isfinite(series.pressure)):
+        return 'none'
+    tick, section = np.unravel_index(choose(series.pressure), series.pressure.shape)
+    value = series.pressure[tick, section] * MEGAPASCAL
+    return f'{value:.4f} MPa abs at {series.section_names[section]}, t = {series.time[tick]:.4f} s'
+
+
+def _frequency(series: Series) -> str:
+    """Return the dominant frequency of the piston in words."""
+    frequency = dominant_frequency(series.time, series.position)
+    return f'{frequency:.4g} Hz' if frequency else 'none (not periodic)'
+
+
+def changed_parameters(series: Series) -> Rows:
+    """Return the recorded parameters that differ from the defaults, with their units."""
+    rows = []
+    table = definitions(series.section_names)
+    for name, value in series.parameters.items():
+        known = table.get(name)
+        if known is None:
+            rows.append((name, f'{_shown(value)} (unknown to this version)'))
+        elif not _equal(value, known.default):
+            unit = '' if known.unit in ('', '1') else f' {known.unit}'
+            rows.append((name, f'{_shown(value)}{unit} (default {_shown(known.default)})'))
+    return rows
+
+
+def _equal(value: object, default: object) -> bool:
+    """Tell whether a value read from YAML is the default."""
+    if isinstance(default, tuple):
+        return list(value) == list(default) if isinstance(value, (list, tuple)) else False
+    return value == default
+
+
+def _shown(value: object) -> str:
+    """Return a value as short text."""
+    if isinstance(value, (list, tuple)):
+        return '[' + ', '.join(map(_shown, value)) + ']'
+    return str(value).lower() if isinstance(value, bool) else str(value)
