@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+One HTML page from figures and tables: everything inside, nothing fetched.
+
+Arrays travel as base64 of 32-bit floats (times: 64-bit); fields as 16-bit steps between their
+lowest and highest value, which is finer than any screen. Equal arrays travel once. A content
+security policy in the page forbids every connection.
+"""
+
+import base64
+import hashlib
+import html
+from importlib import resources
+import json
+
+import numpy as np
+
+from hydra_actuator.analysis.figure import Figure
+from hydra_actuator.errors import InputError
+
+GENERATOR = '<meta name="generator" content="hydra_actuator report">'
+STEPS = 65534
+NOT_A_NUMBER = 65535
+
+
+class Arrays:
+    """The arrays of a page, each kept once, referred to by number."""
+
+    def __init__(self):
+        self.packed: list[dict] = []
+        self._known: dict[bytes, int] = {}
+
+    def add(self, values: np.ndarray) -> int:
+        """Keep an array of one or two dimensions and return its number."""
+        packed, raw = _fine(values) if values.ndim == 1 else _stepped(values)
+        key = hashlib.sha256(repr(sorted(packed.items())).encode() + raw).digest()
+        if key not in self._known:
+            self._known[key] = len(self.packed)
+            self.packed.append({**packed, 'data': base64.b64encode(raw).decode('ascii')})
+        return self._known[key]
+
+
+def _fine(values: np.ndarray) -> tuple[dict, bytes]:
+    """Return description and bytes of a line: 64-bit if it was given so, else 32-bit."""
+    kind = 'f8' if values.dtype == np.float64 else 'f4'
+    return {'type': kind}, np.ascontiguousarray(values, f'<{kind}').tobytes()
+
+
+def _stepped(values: np.ndarray) -> tuple[dict, bytes]:
+    """Return description and bytes of a field in 16-bit steps."""
+    finite = np.isfinite(values)
+    lowest = float(values[finite].min()) if finite.any() else 0.0
+    highest = float(values[finite].max()) if finite.any() else 0.0
+    step = (highest - lowest) / STEPS or 1.0
+    steps = np.full(values.shape, NOT_A_NUMBER, '<u2')
+    steps[finite] = np.rint((values[finite] - lowest) / step)
+    description = {'type': 'u2', 'shape': list(values.shape), 'lowest': lowest, 'step': step}
+    return description, steps.tobytes()
+
+
+def figures_json(figures: list[Figure]) -> str:
+    """Return the figures and their arrays as JSON that may stand inside a script element."""
+    arrays = Arrays()
+
+    def packed(value):
+        if isinstance(value, np.ndarray):
+            return {'$array': arrays.add(value)}
+        if isinstance(value, dict):
+            return {key: packed(part) for key, part in value.items()}
+        if isinstance(value, (list, tuple)):
+            return [packed(part) for part in value]
+        return value
+
+    drawn = [
+        {'key': f.key, 'traces': packed(f.traces), 'layout': packed(f.layout),
+         'height': f.height, 'linked': f.linked}
+        for f in figures if not f.missing
+    ]
+    text = json.dumps({'figures': drawn, 'arrays': arrays.packed}, separators=(',', ':'))
+    return text.replace('<', '\\u003c')
+
+
+def page(title: str, subtitle: str, figures: list[Figure], tables: list[tuple]) -> str:
+    """Return the page; `tables` holds (title, note, rows of two texts)."""
+    parts = {
+        'TITLE': html.escape(title),
+        'SUBTITLE': html.escape(subtitle),
+        'STYLE': _asset('style.css'),
+        'PICTURES': '\n'.join(_place(figure) for figure in figures),
+        'TABLES': '\n'.join(_table(*table) for table in tables),
+        'FIGURES': figures_json(figures),
+        'PLOTLY': plotly_script(),
+        'SCRIPT': _asset('draw.js'),
+    }
+    # Split once: what is put in is never searched for further marks.
+    pieces = _asset('page.html').split('@')
+    return ''.join(parts.get(piece, piece) if k % 2 else piece for k, piece in enumerate(pieces))
+
+
+def plotly_script() -> str:
+    """Return plotly.js as the plotly package carries it; InputError if that is not installed."""
+    try:
+        from plotly.offline import get_plotlyjs
+    except ImportError as error:
+        raise InputError(
+            'the report needs plotly: pip install hydra_actuator[report]'
+        ) from error
+    return get_plotlyjs()
+
+
+def _asset(name: str) -> str:
+    """Return a file of the page."""
+    files = resources.files('hydra_actuator.analysis')
+    return (files / 'page' / name).read_text(encoding='utf-8')
+
+
+def _place(figure: Figure) -> str:
+    """Return the element a figure is drawn into, or the words that stand for a missing one."""
+    title = html.escape(figure.title)
+    if figure.missing:
+        return (f'<section class="missing" data-missing="{html.escape(figure.key)}">'
+                f'<h2>{title}</h2><p>Not here: {html.escape(figure.missing)}.</p></section>')
+    extent = ' class="wide"' if figure.wide else ''
+    return (
+        f'<figure{extent}><h2>{title}</h2><figcaption>{html.escape(figure.caption)}</figcaption>'
+        f'<div class="plot" id="{html.escape(figure.key)}" style="min-height:{figure.height}px">'
+        '</div></figure>'
+    )
+
+
+def _table(title: str, note: str, rows: list[tuple[str, str]]) -> str:
+    """Return a table of two columns, or its note alone if there are no rows."""
+    body = ''.join(
+        f'<tr><th scope="row">{html.escape(what)}</th><td>{html.escape(value)}</td></tr>'
+        for what, value in rows
+    )
+    words = f'<p>{html.escape(note)}</p>' if note else ''
+    return f'<section><h2>{html.escape(title)}</h2>{words}<table>{body}</table></section>'

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The report of a recording: one self-contained HTML page, pictures first.
+
+Shows what was recorded and says what was not; computes no physics anew.
+"""
+
+import os
+from pathlib import Path
+
+from hydra_actuator.analysis import facts, figure_fields, figure_lines, figure_timing, streamline
+from hydra_actuator.analysis.figure import Figure
+from hydra_actuator.analysis.page import GENERATOR, page
+from hydra_actuator.analysis.series import Series
+from hydra_actuator.analysis.window import best_field, wave_window, Window, window_of
+from hydra_actuator.errors import InputError
+
+
+def write_report(recording: str | Path, output: str | Path) -> Path:
+    """
+    Write the report of a recording to an HTML file and return its path.
+
+    An earlier report at `output` is replaced, in one step; any other file there is refused.
+    InputError if the recording cannot be read, holds no states, or plotly is missing.
+    """
+    from hydra_actuator.analysis.extraction import series_of
+
+    output = Path(output)
+    check_output(output)
+    series = series_of(recording)
+    text = report_page(series)
+    draft = output.with_name(f'.{output.name}.{os.getpid()}')
+    try:
+        draft.write_text(text, encoding='utf-8')
+        os.replace(draft, output)
+    except OSError as error:
+        draft.unlink(missing_ok=True)
+        raise InputError(f'cannot write {output}: {error.strerror}') from error
+    return output
+
+
+def check_output(output: Path) -> None:
+    """Raise InputError unless a report can be written here without losing anything else."""
+    if output.is_dir():
+        raise InputError(f'{output} is a directory, not a file for the report')
+    if not output.parent.is_dir():
+        raise InputError(f'no directory {output.parent} for the report')
+    if output.exists():
+        with output.open('rb') as present:
+            start = present.read(2000)
+        if start and GENERATOR.encode() not in start:
+            raise InputError(f'{output} exists and is not a report; it is left as it is')
+
+
+def report_page(series: Series) -> str:
+    """Return the page of a run."""
+    return page(
+        f'Actuator recording {series.name}', _subtitle(series), figures(series), _tables(series),
+    )
+
+
+def figures(series: Series) -> list[Figure]:
+    """Return all figures in the order of the page."""
+    shown = window_of(series)
+    return [
+        *field_figures(series, shown),
+        figure_lines.sections(series, shown),
+        figure_lines.piston(series, shown),
+        figure_timing.real_time(series),
+        figure_timing.sending(series),
+        figure_timing.stamps(series),
+    ]
+
+
+def field_figures(series: Series, shown: Window) -> list[Figure]:
+    """Return the figures over streamline and time, from the field or else from the stations."""
+    full, stations = series.field, streamline.field_of_stations(series)
+    drawn = best_field(full, stations, shown)
+    if drawn is None:
+        return [Figure.absent('field', 'Pressure over streamline and time',
+                              'neither the field nor enough stations were recorded')]
+    in_waves = full and wave_window(series, full, shown)
+    mapped, window = (full, in_waves) if in_waves else (drawn, shown)
+    result = [figure_fields.surface(series, drawn, shown, q) for q in figure_fields.QUANTITIES]
+    result += [figure_fields.wave_map(series, mapped, window, q) for q in figure_fields.QUANTITIES]
+    if full is None:
+        result.append(Figure.absent('whole', 'The whole run', 'the field was not recorded'))
+        return result
+    result += [figure_fields.whole_run_map(full, q) for q in figure_fields.QUANTITIES]
+    return [*result, figure_fields.ranges(full, stations)]
+
+
+def _subtitle(series: Series) -> str:
+    """Return the run in one line."""
+    found = dict(facts.run_facts(series))
+    return '; '.join([
+        found['duration'], f'{found["states"]} states', f'piston travel {found["piston travel"]}',
+        f'written by {found["written by"]}',
+    ])
+
+
+def _tables(series: Series) -> list[tuple]:
+    """Return the tables: facts, real time, parameters."""
+    real_time = facts.real_time_facts(series)
+    changed = facts.changed_parameters(series)
+    return [
+        ('The run', '', facts.run_facts(series)),
+        ('Real time', '' if real_time else 'Not here: no statistics were recorded.', real_time),
+        ('Parameters that differ from the defaults', _about_parameters(series, changed), changed),
+    ]
+
+
+def _about_parameters(series: Series, changed: list) -> str:
+    """Return what to say where the table of changed parameters is empty."""
+    if not series.parameters:
+        return 'Not here: the recording holds no parameters.'
+    return '' if changed else 'None: every parameter has its default.'

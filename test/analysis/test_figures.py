@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every figure is valid for plotly and holds the numbers of the run, in the units it names."""
+
+from dataclasses import replace
+
+import numpy as np
+import plotly.graph_objects as go
+import pytest
+
+from hydra_actuator.analysis import facts, figure_fields, figure_lines, figure_timing, report
+from hydra_actuator.analysis.window import window_of
+
+KEYS = [
+    'surface_pressure', 'surface_velocity', 'map_pressure', 'map_velocity', 'whole_pressure',
+    'whole_velocity', 'ranges', 'sections', 'piston', 'real_time', 'sending', 'stamps',
+]
+
+
+def test_all_figures_are_there_in_order_and_plotly_takes_them(run):
+    figures = report.figures(run)
+    assert [figure.key for figure in figures] == KEYS
+    for figure in figures:
+        assert not figure.missing
+        # plotly's own check of every property's name and value.
+        go.Figure(data=figure.traces, layout=figure.layout)
+
+
+def test_the_map_of_the_whole_run_keeps_its_peak_in_megapascals(run):
+    pressure = run.field.pressure.copy()
+    pressure[345, 10] = 33e6
+    spiked = replace(run.field, pressure=pressure)
+    highest = figure_fields.whole_run_map(spiked, 'pressure').traces[0]
+    # The peak of one node is linear to its neighbours on the even grid.
+    assert 0.9 * 33 < np.nanmax(highest['z']) <= 33
+
+
+def test_station_lines_hold_the_pressures_in_megapascals(run):
+    figure = figure_lines.sections(run, window_of(run))
+    line = next(t for t in figure.traces if t['name'] == 'C' and t['yaxis'] == 'y')
+    np.testing.assert_allclose(line['y'], run.pressure[:, 3] * 1e-6, rtol=1e-6)
+    np.testing.assert_array_equal(line['x'], run.time)
+
+
+def test_a_long_run_is_decimated_and_keeps_its_extremes(make_run):
+    run = make_run(40.0, 200)
+    pressure = run.pressure.copy()
+    pressure[12_345, 3] = 40e6
+    figure = figure_lines.sections(replace(run, pressure=pressure), window_of(run))
+    line = next(t for t in figure.traces if t['name'] == 'C' and t['yaxis'] == 'y')
+    assert len(line['x']) < 13_000
+    assert line['x'][line['y'].argmax()] == run.time[12_345]
+    assert line['y'].max() == pytest.approx(40)
+
+
+def test_the_piston_figure_shows_millimetres_and_the_spool_beside_the_command(run):
+    lines = {t['name']: t for t in figure_lines.piston(run, window_of(run)).traces}
+    assert lines['position']['y'].max() == pytest.approx(12, rel=1e-4)
+    assert lines['spool']['y'].max() == pytest.approx(1, rel=1e-4)
+    assert lines['command']['yaxis'] == lines['spool']['yaxis']
+    assert 'load' not in lines
+
+
+def test_a_load_has_its_own_panel(run):
+    loaded = replace(run, load_force=np.full(len(run.time), 1500.0))
+    lines = {t['name']: t for t in figure_lines.piston(loaded, window_of(run)).traces}
+    assert lines['load']['y'][0] == pytest.approx(1.5)
+
+
+def test_real_time_statistics_are_those_of_the_diagnostics(run):
+    traces = figure_timing.real_time(run).traces
+    overruns = next(t for t in traces if t['name'] == 'overruns')
+    np.testing.assert_array_equal(overruns['y'], [1, 2, 3])
+    np.testing.assert_array_equal(overruns['x'], [1, 2, 3])
+
+
+def test_a_missing_tick_is_seen_in_the_stamps(run):
+    kept = np.arange(len(run.time)) != 500
+    gap = replace(run, **{
+        name: getattr(run, name)[kept]
+        for name in ('time', 'stamps', 'position', 'velocity', 'pressure', 'send_delay')
+    })
+    line = figure_timing.stamps(gap).traces[0]
+    assert line['y'].max() == pytest.approx(1000)
+    assert dict(facts.real_time_facts(gap))['missing ticks between stamps'] == '1'
+
+
+def test_what_was_not_recorded_is_said(run):
+    poor = replace(run, field=None, diagnostics=(), send_delay=np.empty(0),
+                   section_positions=np.empty(0))
+    missing = [figure.key for figure in report.figures(poor) if figure.missing]
+    assert missing == ['field', 'real_time', 'sending']
+
+
+def test_without_the_field_the_stations_give_the_surface(run):
+    poor = replace(run, field=None)
+    figures = {figure.key: figure for figure in report.figures(poor)}
+    assert '12 stations' in figures['surface_pressure'].caption
+    assert figures['whole'].missing
+
+
+def test_the_facts_name_the_extremes_and_where_they_were(run):
+    rows = dict(facts.run_facts(run))
+    assert rows['highest pressure'].startswith('21.0000 MPa abs at O')
+    assert rows['dominant frequency'] == '50 Hz'
+    assert rows['piston travel'] == '24 mm, from -12 to +12 mm'
+
+
+def test_only_changed_parameters_are_listed_with_unit_and_default(run):
+    ((name, text),) = facts.changed_parameters(run)
+    assert name == 'tank.pressure'
+    assert text == '2400000.0 Pa (default 2500000.0)'
