@@ -27,7 +27,11 @@ setup(
         (f'share/{NAME}/launch', sorted(glob('launch/*.py'))),
     ],
     python_requires='>=3.11,<3.14',
-    install_requires=['setuptools', 'numpy>=1.26', 'numba>=0.59', 'mcap>=1.5', 'PyYAML>=6.0'],
+    install_requires=[
+        'setuptools', 'numpy>=1.26', 'numba>=0.59', 'mcap>=1.5', 'PyYAML>=6.0',
+        # mcap brings these two; chunks are also opened without it.
+        'lz4', 'zstandard',
+    ],
     extras_require={
         'test': [
             'hypothesis', 'matplotlib', 'plotly', 'pytest', 'rosbags', 'ruff', 'scipy',

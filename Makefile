@@ -1,0 +1,43 @@
+# hydra_actuator: `make demo` runs the main job, `make test` the tests. Both make their own .venv.
+
+PYTHON ?= python3
+BIN := .venv/bin
+
+# .venv holds a ROS 2 of its own. What a sourced /opt/ros or another such environment puts before
+# it would mix two of them; the last is the mark by which the ROS wheels know that they have
+# already put their libraries on LD_LIBRARY_PATH.
+unexport PYTHONPATH PYTHONHOME AMENT_PREFIX_PATH LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
+
+.PHONY: demo test soak bench venv clean
+
+demo: venv
+	$(BIN)/hydra_actuator demo
+
+test: venv
+	$(BIN)/ruff check .
+	$(BIN)/python -m pytest
+
+# The long tests: minutes each, on a machine that does nothing else.
+soak: venv
+	$(BIN)/python -m pytest -m soak
+
+bench: venv
+	$(BIN)/hydra_actuator bench
+
+venv: .venv/installed
+
+# Made afresh when what it is made of changes. --use-pep517 because an old pip would otherwise obey
+# setup.cfg, which puts the commands where `ros2 run` looks, not into bin/.
+.venv/installed: setup.py setup.cfg constraints.txt
+	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 13))' || \
+	  { echo 'make: $(PYTHON) is not Python 3.11 to 3.13; try make PYTHON=python3.12' >&2; exit 1; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
+	  { echo 'make: $(PYTHON) cannot make environments: apt install python3-venv' >&2; exit 1; }
+	rm -rf .venv
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --use-pep517 -c constraints.txt -e '.[test,ros,report]'
+	@touch $@
+
+clean:
+	rm -rf .venv .pytest_cache .ruff_cache .hypothesis build dist install log *.egg-info
+	find hydra_actuator test launch -name __pycache__ -type d -exec rm -rf {} +
