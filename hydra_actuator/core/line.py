@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""
+r"""
 The oil in a line: two families of characteristics on a mesh at rest (Jankovic et al., eq. 5).
 
     along dx/dt = u + c:  d(mu + u)/dt = -1/2 lambda u|u|         P = mu + u
     along dx/dt = u - c:  d(mu - u)/dt = +1/2 lambda u|u|         Q = mu - u
 
       t + dt        (i)            The new P of node i comes from the foot of its characteristic,
-                   / \\            theta = (c + u) dt/dx cells behind it, by cubic interpolation
-      t    (i-1)  /   \\  (i+1)    over nodes i-2 .. i+1; Q the same, mirrored.
+                   / \            theta = (c + u) dt/dx cells behind it, by cubic interpolation
+      t    (i-1)  /   \  (i+1)    over nodes i-2 .. i+1; Q the same, mirrored.
              foot      foot
 
 u along a characteristic is taken at the foot in the first pass, then as the mean of foot and
@@ -32,10 +32,9 @@ def interpolate(ahead, here, behind, far, theta, third_order):
     Offsets count cells against the direction of travel. third_order 1 is the cubic, 0 linear.
     """
     slope = behind - here
-    second = 0.5 * (slope + (ahead - here))
-    third = (far - ahead) * (1.0 / 6.0) - 0.5 * slope
-    bend = third_order * (second + (theta + 1.0) * third)
-    return here + theta * (slope + (theta - 1.0) * bend)
+    second = third_order * (0.5 * (slope + (ahead - here)))
+    third = third_order * ((far - ahead) * (1.0 / 6.0) - 0.5 * slope)
+    return here + theta * ((slope - second - third) + theta * (second + theta * third))
 
 
 @formula

@@ -14,7 +14,13 @@ import numpy as np
 
 from hydra_actuator.core.line import GHOSTS
 from hydra_actuator.core.records import (
-    JUNCTION, Model, PISTON_PARAMETERS, PISTON_STATE, SOURCE_PARAMETERS, State, VALVE_PARAMETERS,
+    JUNCTION,
+    Model,
+    PISTON_PARAMETERS,
+    PISTON_STATE,
+    SOURCE_PARAMETERS,
+    State,
+    VALVE_PARAMETERS,
 )
 
 
@@ -90,6 +96,7 @@ def build_chain(density: float, domains: list[Domain], junctions: list[Junction]
     nodes = int(np.sum(capacity + 1 + 2 * GHOSTS))
     wave_speed = np.array([domain.wave_speed for domain in domains])
     of_node = np.repeat(np.arange(count), capacity + 1 + 2 * GHOSTS)
+    area = np.array([domain.area for domain in domains])
     loss = np.array([domain.loss_coefficient for domain in domains])
     model = Model(
         step_time=mesh.step_time, max_mach=mesh.max_mach, density=density,
@@ -99,7 +106,8 @@ def build_chain(density: float, domains: list[Domain], junctions: list[Junction]
         start=start, capacity=capacity,
         moving=np.array([int(domain.longest > 0.0) for domain in domains]),
         spacing=spacing, wave_speed=wave_speed, bulk_modulus=density * wave_speed ** 2,
-        area=np.array([domain.area for domain in domains]),
+        area=area, slowness=1.0 / wave_speed, impedance=density * wave_speed / area,
+        inverse_area=1.0 / area,
         courant=(wave_speed * mesh.step_time / spacing)[of_node],
         slope=(mesh.step_time / spacing)[of_node],
         friction=(0.5 * mesh.step_time * loss)[of_node],

@@ -21,6 +21,12 @@ MOST_PASSES = 12
 
 
 @formula
+def settled(end, change):
+    """Return whether a Newton step of an end's velocity [m/s] was the last that matters."""
+    return abs(change) * end.slowness < VELOCITY_TOLERANCE
+
+
+@formula
 def orifice_flow(difference, impedance, coefficient, leakage):
     """
     Return the flow [m^3/s] that a wave difference drives through an orifice between two ends.
@@ -56,26 +62,25 @@ def orifice_drop(flow, coefficient, leakage):
 
 
 @formula
-def solve_orifice(end_1, end_2, coefficient, leakage):
+def solve_orifice(end_1, end_2, coefficient, leakage, most):
     """
-    Return the outflow velocities [m/s] of both ends at which law and mass balance hold.
+    Return the outflow velocities [m/s] of two Ends at which law and mass balance hold.
 
-    end_1, end_2: (wave, trial outflow velocity, wave speed, bulk modulus, area). Each pass
-    replaces both ends by pressure and impedance and solves the orifice exactly.
+    Each of at most `most` passes replaces both ends by pressure and impedance and solves the
+    orifice exactly.
     """
-    wave_1, v_1, c_1, chi_1, area_1 = end_1
-    wave_2, v_2, c_2, chi_2, area_2 = end_2
+    v_1, v_2 = end_1.velocity, end_2.velocity
     if coefficient == 0.0 and leakage == 0.0:
         return 0.0, 0.0
-    for _ in range(MOST_PASSES):
-        p_1, q_1, z_1, slope_1 = end_relation(wave_1, v_1, c_1, chi_1, area_1)
-        p_2, q_2, z_2, slope_2 = end_relation(wave_2, v_2, c_2, chi_2, area_2)
+    for _ in range(most):
+        p_1, q_1, z_1, flatness_1 = end_relation(end_1, v_1)
+        p_2, q_2, z_2, flatness_2 = end_relation(end_2, v_2)
         flow = orifice_flow(
             p_1 - p_2 + (z_1 * q_1 - z_2 * q_2), z_1 + z_2, coefficient, leakage)
-        change_1 = (flow - q_1) / slope_1
-        change_2 = (-flow - q_2) / slope_2
+        change_1 = (flow - q_1) * flatness_1
+        change_2 = -(flow + q_2) * flatness_2
         v_1 += change_1
         v_2 += change_2
-        if abs(change_1) < VELOCITY_TOLERANCE * c_1 and abs(change_2) < VELOCITY_TOLERANCE * c_2:
+        if settled(end_1, change_1) and settled(end_2, change_2):
             break
     return v_1, v_2

@@ -18,9 +18,9 @@ Neglected: elasticity of the rod and of the stops, tilting, cushioning.
 import math
 
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.fluid import relative_compression
+from hydra_actuator.core.fluid import end_relation, relative_compression
+from hydra_actuator.core.orifice import settled, VELOCITY_TOLERANCE
 
-SPEED_TOLERANCE = 3e-8
 MOST_PASSES = 60
 
 
@@ -29,35 +29,43 @@ def face_pressures(ends, piston, velocity):
     """
     Return (p_E, p_F, stiffness_E, stiffness_F, u_E, u_F) at a piston velocity [m/s].
 
-    ends: waves, wave speeds, bulk moduli, areas of both chambers; stiffness = -dp/dv [Pa s/m];
-    u: the oil's velocity at each face [m/s], v itself unless the piston leaks.
+    ends: the faces of both chambers; stiffness = -dp/dv [Pa s/m]; u: the oil's velocity at each
+    face [m/s], v itself unless the piston leaks.
     """
-    w_1, c_1, chi_1, area_1, w_2, c_2, chi_2, area_2 = ends
+    end_1, end_2 = ends
     u_1, u_2 = velocity, velocity
-    m_1 = relative_compression((w_1 - u_1) / c_1)
-    m_2 = relative_compression((w_2 + u_2) / c_2)
     if piston.leakage > 0.0:
-        for _ in range(MOST_PASSES):
-            flow_1 = (u_1 - velocity) * area_1 * (1.0 + m_1)
-            defect = piston.leakage * (chi_1 * m_1 - chi_2 * m_2) - flow_1
-            z_1 = chi_1 / (c_1 * area_1)
-            z_2 = chi_2 / (c_2 * area_2)
-            change = defect / (1.0 + piston.leakage * (z_1 + z_2))
-            u_1 += change / (area_1 * (1.0 + m_1))
-            m_1 = relative_compression((w_1 - u_1) / c_1)
-            flow_1 = (u_1 - velocity) * area_1 * (1.0 + m_1)
-            u_2 = velocity + flow_1 / (area_2 * (1.0 + m_2))
-            m_2 = relative_compression((w_2 + u_2) / c_2)
-            if abs(change) < SPEED_TOLERANCE * c_1 * area_1 * 1e-3:
-                break
-    stiffness_1 = chi_1 / c_1 * (1.0 + m_1)
-    stiffness_2 = chi_2 / c_2 * (1.0 + m_2)
-    return chi_1 * m_1, chi_2 * m_2, stiffness_1, stiffness_2, u_1, u_2
+        u_1, u_2 = leaking_velocities(ends, piston, velocity)
+    m_1 = relative_compression((end_1.wave - u_1) * end_1.slowness)
+    m_2 = relative_compression((end_2.wave + u_2) * end_2.slowness)
+    rigidity_1 = end_1.bulk_modulus * end_1.slowness
+    rigidity_2 = end_2.bulk_modulus * end_2.slowness
+    return (end_1.bulk_modulus * m_1, end_2.bulk_modulus * m_2,
+            rigidity_1 + rigidity_1 * m_1, rigidity_2 + rigidity_2 * m_2, u_1, u_2)
+
+
+@formula
+def leaking_velocities(ends, piston, velocity):
+    """Return the oil's velocities [m/s] at both faces of a leaking piston that moves at v."""
+    end_1, end_2 = ends
+    flow, v_1, v_2 = 0.0, velocity, -velocity
+    for _ in range(MOST_PASSES):
+        p_1, _, z_1, _ = end_relation(end_1, v_1)
+        p_2, _, z_2, _ = end_relation(end_2, v_2)
+        defect = piston.leakage * (p_1 - p_2) - flow
+        change = defect / (1.0 + piston.leakage * (z_1 + z_2))
+        flow += change
+        # rho A (u - v) = rho0 q, with rho from the pressure of this pass
+        v_1 = velocity + flow * end_1.inverse_area / (1.0 + p_1 / end_1.bulk_modulus)
+        v_2 = -velocity - flow * end_2.inverse_area / (1.0 + p_2 / end_2.bulk_modulus)
+        if abs(change) * end_1.inverse_area * end_1.slowness < 1e-3 * VELOCITY_TOLERANCE:
+            break
+    return v_1, -v_2
 
 
 @formula
 def seal_friction(piston, speed):
-    """Return the friction force [N] of the sliding seals at a speed [m/s] and its slope [N s/m]."""
+    """Return the seals' friction force [N] at a sliding speed [m/s], and its slope [N s/m]."""
     if piston.breakaway <= piston.coulomb:
         return piston.coulomb, 0.0
     ratio = speed / piston.stribeck_velocity
@@ -68,8 +76,9 @@ def seal_friction(piston, speed):
 @formula
 def implicitness(ends, piston, step_time):
     """Return theta of the momentum balance: 1/2, more where the mass is light against the oil."""
-    _, c_1, chi_1, area_1, _, c_2, chi_2, area_2 = ends
-    damping = chi_1 / c_1 * area_1 + chi_2 / c_2 * area_2 + piston.viscous
+    end_1, end_2 = ends
+    damping = (end_1.impedance * end_1.area ** 2 + end_2.impedance * end_2.area ** 2
+               + piston.viscous)
     return max(0.5, 1.0 - piston.mass / (damping * step_time))
 
 
@@ -82,7 +91,7 @@ def momentum_defect(ends, piston, motion, load_force, velocity):
     """
     x_old, v_old, force_old, theta, step_time = motion
     p_1, p_2, stiffness_1, stiffness_2, _, _ = face_pressures(ends, piston, velocity)
-    area_1, area_2 = ends[3], ends[7]
+    area_1, area_2 = ends[0].area, ends[1].area
     x = x_old + step_time * (theta * velocity + (1.0 - theta) * v_old)
     force = (area_1 * p_1 - area_2 * p_2 - piston.stiffness * x
              - piston.viscous * velocity - load_force)
@@ -132,7 +141,7 @@ def slide(ends, piston, motion, load_force, guess):
                 trial = 2.0 * velocity
         change = trial - velocity
         velocity = trial
-        if abs(change) < SPEED_TOLERANCE * ends[1]:
+        if settled(ends[0], change):
             break
     return velocity
 

@@ -34,7 +34,8 @@ PISTON_PARAMETERS = np.dtype([
 
 # Changed only between calls (supply pressure is a live parameter).
 SOURCE_PARAMETERS = np.dtype([
-    ('pressure', np.float64), ('mu', np.float64), ('max_flow', np.float64),
+    ('pressure', np.float64), ('mu', np.float64), ('relative_density', np.float64),
+    ('max_flow', np.float64),
     ('accumulator_volume', np.float64), ('precharge', np.float64), ('ambient', np.float64)],
     align=True)
 
@@ -60,6 +61,9 @@ class Model(NamedTuple):
     wave_speed: np.ndarray      # (D,) [m/s]
     bulk_modulus: np.ndarray    # (D,) [Pa]
     area: np.ndarray            # (D,) [m^2]
+    slowness: np.ndarray        # (D,) 1/c [s/m]
+    impedance: np.ndarray       # (D,) rho0 c/A [Pa s/m^3]
+    inverse_area: np.ndarray    # (D,) [1/m^2]
     courant: np.ndarray         # (N,) c dt/dx [-]
     slope: np.ndarray           # (N,) dt/dx [s/m]
     friction: np.ndarray        # (N,) lambda dt/2 [s/m]

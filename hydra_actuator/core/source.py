@@ -11,27 +11,28 @@ relief valve's slope, inertia of the accumulator's neck, heat of the gas.
 
 
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.fluid import end_relation, relative_compression, riemann_variable
-from hydra_actuator.core.orifice import MOST_PASSES, VELOCITY_TOLERANCE
+from hydra_actuator.core.fluid import end_relation, riemann_variable
+from hydra_actuator.core.orifice import MOST_PASSES, settled
 
 GAS_EXPONENT = 1.4
+MOST_BRACKETED_PASSES = 60
 
 
 @formula
-def solve_pressure_end(wave, mu):
-    """Return the outflow velocity [m/s] of an end held at the Riemann variable mu [m/s]."""
-    return wave - mu
+def solve_pressure_end(end, pressure):
+    """Return the outflow velocity [m/s] of an end held at a gauge pressure [Pa]."""
+    return end.wave - riemann_variable(pressure, 1.0 / end.slowness, end.bulk_modulus)
 
 
 @formula
 def solve_flow_end(end, flow):
     """Return the outflow velocity [m/s] of an end from which `flow` [m^3/s] leaves the line."""
-    wave, velocity, wave_speed, bulk_modulus, area = end
+    velocity = end.velocity
     for _ in range(MOST_PASSES):
-        _, q, _, slope = end_relation(wave, velocity, wave_speed, bulk_modulus, area)
-        change = (flow - q) / slope
+        _, q, _, flatness = end_relation(end, velocity)
+        change = (flow - q) * flatness
         velocity += change
-        if abs(change) < VELOCITY_TOLERANCE * wave_speed:
+        if settled(end, change):
             break
     return velocity
 
@@ -41,17 +42,14 @@ def solve_pump(end, source, oil_stored, step_time):
     """
     Return (outflow velocity [m/s], oil in the accumulator [m^3]) of the pump's end.
 
-    source: record of pressure and its mu, max_flow (0 = unlimited) and accumulator.
+    source: SOURCE_PARAMETERS of hydra_actuator.core.records; max_flow 0 is unlimited.
     """
-    wave, velocity, wave_speed, bulk_modulus, area = end
-    free = wave - source.mu
-    relative_density = 1.0 + source.pressure / bulk_modulus
-    drawn = -free * area * relative_density
+    free = end.wave - source.mu
     if source.max_flow == 0.0:
         return free, oil_stored
     if source.accumulator_volume > 0.0:
         return solve_accumulator(end, source, oil_stored, step_time)
-    if drawn <= source.max_flow:
+    if -free * end.area * source.relative_density <= source.max_flow:
         return free, oil_stored
     return solve_flow_end(end, -source.max_flow), oil_stored
 
@@ -71,36 +69,40 @@ def solve_accumulator(end, source, oil_stored, step_time):
     The pump gives max_flow, the line draws q, the rest goes into the gas within the step
     (implicit, so stable at any gas stiffness); at supply pressure the relief valve opens.
     """
-    wave, velocity, wave_speed, bulk_modulus, area = end
-    free = wave - source.mu
-    drawn = -free * area * (1.0 + source.pressure / bulk_modulus)
+    free = end.wave - source.mu
+    drawn = -free * end.area * source.relative_density
     full = stored_oil(source.pressure, source)
     if oil_stored + step_time * (source.max_flow - drawn) >= full:
         return free, full
-    low = riemann_variable(-0.999 * source.ambient, wave_speed, bulk_modulus)
-    v_low, v_high = wave - source.mu, wave - low
     if oil_stored == 0.0:
-        v_dry = solve_flow_end(end, -source.max_flow)
-        p_dry = bulk_modulus * relative_compression((wave - v_dry) / wave_speed)
-        if p_dry <= source.precharge:
-            return v_dry, 0.0
-    # residual = stored(p) - oil - dt (max_flow - drawn): falls with v, bracketed bisection-Newton
-    for _ in range(60):
-        p, q, z, slope = end_relation(wave, velocity, wave_speed, bulk_modulus, area)
+        dry = solve_flow_end(end, -source.max_flow)
+        if end_relation(end, dry)[0] <= source.precharge:
+            return dry, 0.0
+    velocity = min(max(end.velocity, free), end.wave - vacuum(end, source))
+    low, high = free, end.wave - vacuum(end, source)
+    # stored(p) - oil - dt (max_flow - drawn) falls as v rises: Newton inside a bracket
+    for _ in range(MOST_BRACKETED_PASSES):
+        p, q, z, flatness = end_relation(end, velocity)
         held = stored_oil(p, source)
         residual = held - oil_stored - step_time * (source.max_flow + q)
         if residual > 0.0:
-            v_low = velocity
+            low = velocity
         else:
-            v_high = velocity
-        stiffness = (source.accumulator_volume - held) / (GAS_EXPONENT * (p + source.ambient))
-        change = residual / (slope * (step_time + z * stiffness))
-        trial = velocity + change
-        if not v_low <= trial <= v_high:
-            trial = 0.5 * (v_low + v_high)
+            high = velocity
+        softness = (source.accumulator_volume - held) / (GAS_EXPONENT * (p + source.ambient))
+        trial = velocity + residual * flatness / (step_time + z * softness)
+        if not low <= trial <= high:
+            trial = 0.5 * (low + high)
         change = trial - velocity
         velocity = trial
-        if abs(change) < VELOCITY_TOLERANCE * wave_speed:
+        if settled(end, change):
             break
-    p, q, z, slope = end_relation(wave, velocity, wave_speed, bulk_modulus, area)
+    q = end_relation(end, velocity)[1]
     return velocity, max(0.0, oil_stored + step_time * (source.max_flow + q))
+
+
+@formula
+def vacuum(end, source):
+    """Return mu [m/s] just above absolute vacuum, the lower bound of the gas law."""
+    return riemann_variable(
+        -0.999 * source.ambient, 1.0 / end.slowness, end.bulk_modulus)

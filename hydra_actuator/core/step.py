@@ -10,9 +10,9 @@ import math
 
 from hydra_actuator.core.chamber import extend_to_face, renew_last_nodes, wave_at_face
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.fluid import riemann_variable
+from hydra_actuator.core.fluid import End
 from hydra_actuator.core.line import arriving_wave, fill_ghosts, GHOSTS, sweep
-from hydra_actuator.core.orifice import solve_orifice
+from hydra_actuator.core.orifice import MOST_PASSES, solve_orifice
 from hydra_actuator.core.piston import face_pressures, implicitness, move_piston
 from hydra_actuator.core.records import (
     CLOSED,
@@ -38,8 +38,10 @@ def step(model, state, inputs, passes):
           state.wave_p.size - 2 * GHOSTS, model.third_order, passes)
     for k in range(len(passes)):
         arrive(model, state, mesh, k == 0)
+        # an earlier pass only needs u at arrival for the slopes: one Newton step is plenty
+        most = MOST_PASSES if k == len(passes) - 1 else 1
         for j in range(model.junctions.size):
-            solve_junction(model, state, j, inputs)
+            solve_junction(model, state, j, (inputs, most))
     take_new_level(model, state, passes)
     state.step[0] += 1
 
@@ -102,24 +104,28 @@ def arrive(model, state, mesh, first_pass):
 
 @formula
 def end_of(model, state, end):
-    """Return (wave, trial outflow velocity, wave speed, bulk modulus, area) of an end."""
+    """Return the End of a domain as the boundaries see it."""
     d = end // 2
-    return (state.end_wave[end], state.end_velocity[end],
-            model.wave_speed[d], model.bulk_modulus[d], model.area[d])
+    return End(
+        state.end_wave[end], state.end_velocity[end], model.slowness[d], model.bulk_modulus[d],
+        model.area[d], model.impedance[d], model.inverse_area[d])
 
 
 @formula
-def solve_junction(model, state, j, inputs):
-    """Solve one junction: its ends' outflow velocities at the new level."""
+def solve_junction(model, state, j, task):
+    """
+    Solve one junction: its ends' outflow velocities at the new level.
+
+    task: (inputs of the new level, passes of the orifices' iteration at most).
+    """
+    inputs, most = task
     junction = model.junctions[j]
     kind, end = junction.kind, junction.end[0]
     velocity = state.end_velocity
     if kind == CLOSED:
         velocity[end] = 0.0
     elif kind == PRESSURE:
-        wave, _, wave_speed, bulk_modulus, _ = end_of(model, state, end)
-        velocity[end] = solve_pressure_end(
-            wave, riemann_variable(inputs[junction.input], wave_speed, bulk_modulus))
+        velocity[end] = solve_pressure_end(end_of(model, state, end), inputs[junction.input])
     elif kind == FLOW:
         velocity[end] = solve_flow_end(end_of(model, state, end), inputs[junction.input])
     elif kind == PUMP:
@@ -129,9 +135,9 @@ def solve_junction(model, state, j, inputs):
         other = junction.end[1]
         velocity[end], velocity[other] = solve_orifice(
             end_of(model, state, end), end_of(model, state, other),
-            junction.coefficient, junction.leakage)
+            junction.coefficient, junction.leakage, most)
     elif kind == VALVE:
-        solve_valve_junction(model, state, junction)
+        solve_valve_junction(model, state, junction, most)
     elif kind == PISTON:
         solve_piston_junction(model, state, junction, inputs)
     elif kind == WALL:
@@ -143,13 +149,13 @@ def solve_junction(model, state, j, inputs):
 
 
 @formula
-def solve_valve_junction(model, state, junction):
+def solve_valve_junction(model, state, junction, most):
     """Solve the four edges of the valve."""
     ends = (
         end_of(model, state, junction.end[0]), end_of(model, state, junction.end[1]),
         end_of(model, state, junction.end[2]), end_of(model, state, junction.end[3]))
-    solve_valve(ends, state.valve_velocity, state.edge_coefficient,
-                model.valve[0].leakage, state.ring)
+    solve_valve(ends, state.valve_velocity, (state.edge_coefficient, model.valve[0].leakage),
+                state.ring, most)
     for k in range(4):
         state.end_velocity[junction.end[k]] = state.valve_velocity[k]
 
@@ -160,9 +166,7 @@ def solve_piston_junction(model, state, junction, inputs):
     face_1, face_2 = junction.end[0], junction.end[1]
     d_1, d_2 = face_1 // 2, face_2 // 2
     piston, motion = model.piston[0], state.piston[0]
-    ends = (
-        state.end_wave[face_1], model.wave_speed[d_1], model.bulk_modulus[d_1], model.area[d_1],
-        state.end_wave[face_2], model.wave_speed[d_2], model.bulk_modulus[d_2], model.area[d_2])
+    ends = (end_of(model, state, face_1), end_of(model, state, face_2))
     theta = implicitness(ends, piston, model.step_time)
     load_force = inputs[junction.input]
     old = (motion.position, motion.velocity, motion.force, theta, model.step_time)

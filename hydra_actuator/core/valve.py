@@ -18,12 +18,7 @@ import math
 
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.fluid import end_relation
-from hydra_actuator.core.orifice import (
-    MOST_PASSES,
-    orifice_drop,
-    solve_orifice,
-    VELOCITY_TOLERANCE,
-)
+from hydra_actuator.core.orifice import orifice_drop, settled, solve_orifice
 
 A, B, I, J = range(4)
 SOURCES = (A, A, B, I)
@@ -34,7 +29,7 @@ MOST_RING_PASSES = 40
 @formula
 def edge_coefficients(valve, spool_1, spool_2, coefficient):
     """
-    Write K' [m^3/(s sqrt(Pa))] of the four edges at two spool displacements [m] into `coefficient`.
+    Write K' [m^3/(s sqrt(Pa))] of the four edges at two displacements [m] into `coefficient`.
 
     Spool 1 opens PA (+) and AT (-), spool 2 BT (+) and PB (-); one spool moves as both.
     """
@@ -45,34 +40,38 @@ def edge_coefficients(valve, spool_1, spool_2, coefficient):
 
 
 @formula
-def solve_valve(ends, velocity, coefficient, leakage, ring):
+def solve_valve(ends, velocity, valve_edges, ring, most):
     """
     Update the outflow velocities [m/s] (4,) of stations A, B, I, J in place.
 
-    ends: four tuples (wave, trial velocity, wave speed, bulk modulus, area);
-    coefficient (4,) and leakage of the edges; ring: work array (6, 4), row 5 the edge flows.
+    ends: four Ends; valve_edges: (K' of the edges (4,), their leakage); ring: work array (6, 4),
+    row 5 the edge flows; most: passes at most.
     """
+    coefficient, leakage = valve_edges
     direct = coefficient[0] > 0.0 or coefficient[3] > 0.0
     reverse = coefficient[1] > 0.0 or coefficient[2] > 0.0
     if leakage == 0.0 and not (direct and reverse):
         if reverse:
-            velocity[A], velocity[I] = solve_orifice(ends[A], ends[I], coefficient[1], 0.0)
-            velocity[B], velocity[J] = solve_orifice(ends[B], ends[J], coefficient[2], 0.0)
+            velocity[A], velocity[I] = solve_orifice(
+                ends[A], ends[I], coefficient[1], 0.0, most)
+            velocity[B], velocity[J] = solve_orifice(
+                ends[B], ends[J], coefficient[2], 0.0, most)
         else:
-            velocity[A], velocity[B] = solve_orifice(ends[A], ends[B], coefficient[0], 0.0)
-            velocity[I], velocity[J] = solve_orifice(ends[I], ends[J], coefficient[3], 0.0)
+            velocity[A], velocity[B] = solve_orifice(
+                ends[A], ends[B], coefficient[0], 0.0, most)
+            velocity[I], velocity[J] = solve_orifice(
+                ends[I], ends[J], coefficient[3], 0.0, most)
         return
     for k in range(4):
-        velocity[k] = ends[k][1]
-    for _ in range(MOST_PASSES):
-        largest = 0.0
+        velocity[k] = ends[k].velocity
+    for _ in range(most):
+        done = True
         for k in range(4):
-            wave, _, wave_speed, bulk_modulus, area = ends[k]
-            p, q, z, slope = end_relation(wave, velocity[k], wave_speed, bulk_modulus, area)
+            p, q, z, flatness = end_relation(ends[k], velocity[k])
             ring[0, k] = p + z * q
             ring[1, k] = z
             ring[2, k] = q
-            ring[3, k] = slope
+            ring[3, k] = flatness
         solve_ring(ring, coefficient, leakage)
         flow = ring[5]
         ring[4, A] = flow[0] + flow[1]
@@ -80,10 +79,10 @@ def solve_valve(ends, velocity, coefficient, leakage, ring):
         ring[4, I] = flow[3] - flow[1]
         ring[4, J] = -flow[2] - flow[3]
         for k in range(4):
-            change = (ring[4, k] - ring[2, k]) / ring[3, k]
+            change = (ring[4, k] - ring[2, k]) * ring[3, k]
             velocity[k] += change
-            largest = max(largest, abs(change) / ends[k][2])
-        if largest < VELOCITY_TOLERANCE:
+            done = done and settled(ends[k], change)
+        if done:
             break
 
 

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Compiled kernels kept on disk, used only when they are exactly what a fresh compilation gives.
+
+A cache directory's name is a hash of the kernels' sources (numba alone would notice a change of
+the entry's own file only), of the versions and of the processor. It is filled in private,
+gets a manifest of checksums, and is put in place whole by one rename; a directory whose files do
+not match their manifest is thrown away. Without a writable place the kernels are compiled anew.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+import hashlib
+import json
+import os
+from pathlib import Path
+import shutil
+import sys
+import tempfile
+
+import llvmlite
+import llvmlite.binding
+import numba
+from numba.core.caching import NullCache
+import numpy as np
+
+import hydra_actuator.core
+from hydra_actuator.core.advance import advance
+from hydra_actuator.core.observe import observe, read_field
+
+KERNELS = (advance, observe, read_field)
+MANIFEST = 'manifest.json'
+MOST_KEPT = 8
+
+
+@contextmanager
+def warm_kernels(passes: int) -> Iterator[None]:
+    """
+    Let the kernels called inside come from the disk, or be compiled and kept there.
+
+    passes: solver iterations, for which the kernels are specialised. The caller calls each
+    kernel once inside the context, so that nothing compiles afterwards.
+    """
+    place = cache_root() / cache_key(passes)
+    if is_intact(place):
+        _attach(place)
+        try:
+            yield
+        finally:
+            _detach()
+        return
+    workshop = _workshop(place)
+    if workshop is None:
+        yield
+        return
+    try:
+        _attach(workshop)
+        yield
+        _publish(workshop, place)
+    finally:
+        _detach()
+        shutil.rmtree(workshop, ignore_errors=True)
+
+
+def compilations() -> int:
+    """Return how many kernels this process compiled rather than loaded."""
+    return sum(sum(kernel.stats.cache_misses.values()) for kernel in KERNELS)
+
+
+def cache_root() -> Path:
+    """Return where kernels are kept: $HYDRA_ACTUATOR_CACHE, else the user's cache directory."""
+    own = os.environ.get('HYDRA_ACTUATOR_CACHE')
+    if own:
+        return Path(own)
+    base = os.environ.get('XDG_CACHE_HOME') or Path.home() / '.cache'
+    return Path(base) / 'hydra_actuator'
+
+
+def cache_key(passes: int) -> str:
+    """Return the name of the directory that fits sources, versions and processor."""
+    digest = hashlib.sha256()
+    for source in sorted(Path(hydra_actuator.core.__file__).parent.glob('*.py')):
+        digest.update(f'{source} {source.stat().st_mtime_ns}\n'.encode())
+        digest.update(source.read_bytes())
+    about = (sys.version, numba.__version__, llvmlite.__version__, np.__version__,
+             llvmlite.binding.get_host_cpu_name(),
+             llvmlite.binding.get_host_cpu_features().flatten(), passes)
+    digest.update(repr(about).encode())
+    return digest.hexdigest()[:32]
+
+
+def is_intact(place: Path) -> bool:
+    """Return whether all files of a cache directory are those its manifest names."""
+    try:
+        manifest = json.loads((place / MANIFEST).read_text())
+        return bool(manifest) and manifest == _checksums(place)
+    except (OSError, ValueError):
+        return False
+
+
+def _checksums(place: Path) -> dict[str, str]:
+    return {
+        str(file.relative_to(place)): hashlib.sha256(file.read_bytes()).hexdigest()
+        for file in sorted(place.rglob('*'))
+        if file.is_file() and file.name != MANIFEST}
+
+
+def _workshop(place: Path) -> Path | None:
+    try:
+        place.parent.mkdir(parents=True, exist_ok=True)
+        return Path(tempfile.mkdtemp(prefix='new-', dir=place.parent))
+    except OSError:
+        return None
+
+
+def _publish(workshop: Path, place: Path) -> None:
+    try:
+        (workshop / MANIFEST).write_text(json.dumps(_checksums(workshop)))
+        shutil.rmtree(place, ignore_errors=True)
+        workshop.rename(place)
+        _prune(place.parent)
+    except OSError:
+        # another process was first, or the disk is full: the kernels in memory are good
+        return
+
+
+def _prune(root: Path) -> None:
+    kept = sorted((entry for entry in root.iterdir() if (entry / MANIFEST).exists()),
+                  key=lambda entry: entry.stat().st_mtime, reverse=True)
+    for entry in kept[MOST_KEPT:]:
+        shutil.rmtree(entry, ignore_errors=True)
+
+
+def _attach(place: Path) -> None:
+    before = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = str(place)
+    try:
+        for kernel in KERNELS:
+            kernel.enable_caching()
+    finally:
+        numba.config.CACHE_DIR = before
+
+
+def _detach() -> None:
+    for kernel in KERNELS:
+        kernel._cache = NullCache()
