@@ -15,5 +15,6 @@ Nothing in here imports rclpy; it knows the channels of the actuator, not its ph
     queue        a writer behind a thread and a bounded queue
     scan         one MCAP file being read, finished or not
     series       the messages of one topic as arrays
+    rows         observation rows from the topics of the state
     reader       a recording as arrays over time
 """
