@@ -24,8 +24,10 @@ class Lines:
         self.traces: list[dict] = []
 
     def add(self, name: str, values: np.ndarray, row: int, unit: str, line: dict, **more) -> None:
-        """Append one line in panel `row` (0 is the top one)."""
-        kept = line_samples(values, self._points, self._full_from)
+        """Append one line in panel `row` (0 is the top one); instants without a value go."""
+        known = np.flatnonzero(np.isfinite(values))
+        full_from = int(np.searchsorted(known, self._full_from))
+        kept = known[line_samples(values[known], self._points, full_from)]
         every = len(kept) == len(self._time)
         self.traces.append({
             'type': 'scatter', 'mode': 'lines', 'name': name,

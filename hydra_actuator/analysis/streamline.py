@@ -12,8 +12,8 @@ two domains stays a jump: two nodes at one x. Between nodes the picture is linea
 import numpy as np
 
 from hydra_actuator.analysis.series import Field, Series
+from hydra_actuator.channels import STATIONS
 
-STATIONS = tuple('OABCDEFGHIJK')
 DOMAINS = ('supply_line', 'line_1', 'chamber_1', 'chamber_2', 'line_2', 'return_line')
 FEWEST_STATIONS = 6
 
@@ -26,17 +26,25 @@ def piston_faces(labels: tuple[str, ...]) -> tuple[int, int] | None:
 
 
 def field_of_stations(series: Series) -> Field | None:
-    """Return the recorded stations as a field of few nodes; None if there are too few of them."""
+    """
+    Return the recorded stations as a field of few nodes; None if there are too few of them.
+
+    Instants at which a station was not recorded are left out.
+    """
     places = {name: k for k, name in enumerate(series.section_names)}
     names = [name for name in STATIONS if name in places]
     if len(names) < FEWEST_STATIONS or len(series.section_positions) != len(places):
         return None
     columns = [places[name] for name in names]
+    known = np.isfinite(series.pressure[:, columns]).all(axis=1)
+    if np.sum(known) < 2:
+        return None
     labels = tuple(DOMAINS[STATIONS.index(name) // 2] for name in names)
     both = 'E' in names and 'F' in names
     return Field(
-        series.time, series.section_positions[columns], labels, series.pressure[:, columns],
-        series.flow_velocity[:, columns], piston_faces(labels) if both else None,
+        series.time[known], series.section_positions[columns], labels,
+        series.pressure[known][:, columns], series.flow_velocity[known][:, columns],
+        piston_faces(labels) if both else None,
         f'{len(names)} stations',
     )
 

@@ -69,10 +69,11 @@ def window_of(series: Series) -> Window:
 
 def largest_step(series: Series) -> float:
     """Return the time [s] of the largest pressure change between two ticks."""
-    if series.pressure.shape[1] == 0 or len(series.time) < 2:
+    known = np.isfinite(series.pressure).all(axis=1)
+    if series.pressure.shape[1] == 0 or np.sum(known) < 2:
         return float(series.time[0])
-    step = np.abs(np.diff(series.pressure, axis=0)).max(axis=1)
-    return float(series.time[int(np.nan_to_num(step).argmax())])
+    step = np.abs(np.diff(series.pressure[known], axis=0)).max(axis=1)
+    return float(series.time[known][int(step.argmax())])
 
 
 def wave_speed(series: Series) -> float:

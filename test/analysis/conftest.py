@@ -1,11 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """A made-up run with a known shape: stations, field and piston follow plain formulas."""
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from hydra_actuator.analysis.series import Command, Field, Report, Series
-from hydra_actuator.analysis.streamline import DOMAINS, piston_faces, STATIONS
+from hydra_actuator.analysis.streamline import DOMAINS, piston_faces
+from hydra_actuator.channels import Channels, STATIONS
+from hydra_actuator.recording import messages
+from hydra_actuator.recording.tick import FieldEncoder, TickEncoder
+from hydra_actuator.recording.topics import ActuatorTopics
+from hydra_actuator.recording.writer import RecordingWriter
 
 FREQUENCY = 50.0
 STATION_POSITIONS = np.array([0, 0.6, 0.6, 0.8, 0.8, 1, 1, 1.2, 1.2, 1.4, 1.4, 2.0])
@@ -68,6 +76,59 @@ def made_run(duration: float = 1.0, field_rate: float = 1000.0) -> Series:
         parameters={'valve.stroke': 5e-4, 'tank.pressure': 2.4e6},
         versions={'hydra_actuator': '0.1.0'}, source='node',
     )
+
+
+def as_recording(run: Series, directory: Path) -> Path:
+    """Write a run as the node would, and return its directory."""
+    topics = ActuatorTopics('/actuator', run.section_names)
+    custom_data = {
+        'parameters': '/**:\n  ros__parameters:\n    valve: {stroke: 5.0e-4}\n'
+                      '    tank: {pressure: 2.4e6}\n',
+        'versions': json.dumps(run.versions), 'source': run.source,
+        'section_positions': json.dumps(run.section_positions.tolist()),
+        'field_positions': json.dumps(run.field.positions.tolist()),
+        'field_labels': json.dumps(run.field.labels),
+    }
+    start, delay = int(run.stamps[0]), round(run.send_delay[0] * 1e9)
+    found = [(topic, stamp, stamp + delay, message)
+             for stamp, row in zip(run.stamps.tolist(), _rows(run))
+             for topic, message in row]
+    found += [(topics.spool_command, start + round(t * 1e9), start + round(t * 1e9),
+               messages.float64(value)) for t, (value,) in
+              zip(run.commands[0].time, run.commands[0].values)]
+    encode = FieldEncoder(len(run.field.positions)).encode
+    for t, pressure, velocity in zip(run.field.time, run.field.pressure, run.field.velocity):
+        stamp = start + round(t * 1e9)
+        frame = np.stack([pressure, velocity], axis=1).astype(np.float32)
+        found.append((topics.field, stamp, stamp, encode(float(t), frame)))
+    for report in run.diagnostics:
+        stamp = start + round(report.time * 1e9)
+        status = (report.level, report.name, report.message, 'hydra_actuator', report.values)
+        found.append((topics.diagnostics, stamp, stamp,
+                      messages.diagnostic_array(stamp, [status])))
+    with RecordingWriter(directory, topics.all(), custom_data) as writer:
+        writer.write_batch(sorted(found, key=lambda message: message[1]))
+    return directory
+
+
+def _rows(run: Series):
+    """Yield the messages of each state."""
+    channels = Channels(run.section_names, 1)
+    encoder = TickEncoder(channels, ('piston_joint', 'valve_joint'),
+                          ActuatorTopics('/actuator', run.section_names))
+    row = channels.empty_row()
+    for tick, stamp in enumerate(run.stamps.tolist()):
+        row[channels.POSITION], row[channels.VELOCITY] = run.position[tick], run.velocity[tick]
+        row[channels.SPOOL_1] = row[channels.SPOOL_2] = run.spool[tick, 0]
+        row[channels.pressure] = run.pressure[tick]
+        row[channels.flow_velocity] = run.flow_velocity[tick]
+        yield encoder.encode(row, stamp)
+
+
+@pytest.fixture
+def record(tmp_path):
+    """Return a function that writes a run as a recording and returns its directory."""
+    return lambda run, name='made_run': as_recording(run, tmp_path / name)
 
 
 @pytest.fixture

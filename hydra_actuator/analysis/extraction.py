@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Read a recording into the series that the figures show.
+
+What the recording does not hold stays empty. InputError names what makes it unusable: no such
+recording, no states, custom data that does not fit its topics.
+"""
+
+import json
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from hydra_actuator.analysis.series import Command, Field, Report, Series
+from hydra_actuator.analysis.streamline import piston_faces
+from hydra_actuator.errors import InputError
+from hydra_actuator.parameters import read_parameter_file
+from hydra_actuator.recording.reader import load_recording, Recording
+
+JOINT_COMMANDS = '/joint_commands'
+
+
+def series_of(path: str | Path) -> Series:
+    """Return the series of a recording; raises InputError."""
+    recording = load_recording(path)
+    if not len(recording.row_stamps):
+        raise InputError(f'{path} holds no joint states: there is nothing to report')
+    rows, channels = recording.rows, recording.channels
+    spools = slice(channels.SPOOL_1, channels.SPOOL_1 + channels.spools)
+    parameters = recorded_parameters(recording)
+    return Series(
+        name=recording.path.resolve().name, path=recording.path, time=recording.time,
+        position=rows[:, channels.POSITION], velocity=rows[:, channels.VELOCITY],
+        spool=rows[:, spools], load_force=rows[:, channels.LOAD_FORCE],
+        section_names=channels.section_names, section_positions=_section_positions(recording),
+        pressure=rows[:, channels.pressure], flow_velocity=rows[:, channels.flow_velocity],
+        stamps=recording.row_stamps, field=_field(recording),
+        commands=_commands(recording, parameters), diagnostics=_reports(recording),
+        send_delay=_send_delay(recording), parameters=parameters,
+        versions=_json_of(recording, 'versions', {}),
+        source=recording.custom_data.get('source', ''),
+    )
+
+
+def recorded_parameters(recording: Recording) -> dict:
+    """Return the parameters the recording was made with, by dotted name; {} if it has none."""
+    text = recording.custom_data.get('parameters')
+    if not text:
+        return {}
+    with TemporaryDirectory() as directory:
+        path = Path(directory) / 'parameters.yaml'
+        path.write_text(text, encoding='utf-8')
+        try:
+            return read_parameter_file(path)
+        except InputError as error:
+            reason = str(error).removeprefix(f'{path}: ')
+        raise InputError(f'{recording.path}: its parameters are not readable: {reason}')
+
+
+def _json_of(recording: Recording, key: str, missing):
+    """Return an entry of the custom data that is JSON."""
+    try:
+        return json.loads(recording.custom_data[key])
+    except KeyError:
+        return missing
+    except ValueError:
+        raise InputError(f'{recording.path}: its {key} are not readable') from None
+
+
+def _section_positions(recording: Recording) -> np.ndarray:
+    """Return x [m] of the sections; empty where the recording does not tell all of them."""
+    places = recording.section_positions
+    return places if len(places) == len(recording.channels.section_names) else np.empty(0)
+
+
+def _field(recording: Recording) -> Field | None:
+    """Return the field, or None if there is none."""
+    frames = recording.field
+    if not len(frames):
+        return None
+    places, labels = recording.field_positions, tuple(recording.field_labels)
+    if not len(places) == len(labels) == frames.shape[1]:
+        raise InputError(
+            f'{recording.path}: its field has {frames.shape[1]} nodes, but positions for '
+            f'{len(places)} and labels for {len(labels)}'
+        )
+    return Field(
+        recording.field_time, places, labels, frames[:, :, 0], frames[:, :, 1],
+        piston_faces(labels), 'the field',
+    )
+
+
+def _commands(recording: Recording, parameters: dict) -> tuple[Command, ...]:
+    """Return the received commands; joint commands as spool positions over the stroke."""
+    origin = recording.row_stamps[0]
+    found = []
+    for topic, (stamps, values) in recording.commands.items():
+        if topic.endswith(JOINT_COMMANDS):
+            values = _valve_positions(recording, topic, values) / parameters.get('valve.stroke', 1)
+        found.append(Command(topic, (stamps - origin) * 1e-9, values))
+    return tuple(found)
+
+
+def _valve_positions(recording: Recording, topic: str, values: np.ndarray) -> np.ndarray:
+    """Return the positions [m] that a topic of joint states commands the valve's joints."""
+    names = next(recording.messages(topic))['name']
+    columns = [names.index(name) for name in recording.joint_names[1:] if name in names]
+    return values[:, [k for k in columns if k < values.shape[1]]]
+
+
+def _reports(recording: Recording) -> tuple[Report, ...]:
+    """Return every status of /diagnostics and of the events."""
+    origin = int(recording.row_stamps[0])
+    return tuple(
+        Report(
+            (message['log_ns'] - origin) * 1e-9, status['name'], status['level'],
+            status['message'], {pair['key']: pair['value'] for pair in status['values']},
+        )
+        for message in recording.diagnostics for status in message['status']
+    )
+
+
+def _send_delay(recording: Recording) -> np.ndarray:
+    """Return how long after its stamp each joint state was sent [s]."""
+    for topic, summary in recording.topics.items():
+        if topic.endswith('/joint_states') and summary.count == len(recording.row_stamps):
+            states = recording.series(topic)
+            return (states.publish_stamps - states.stamps) * 1e-9
+    return np.empty(0)
