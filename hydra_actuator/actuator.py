@@ -9,8 +9,6 @@ The actuator: parameters, a state, and the call that moves it. No ROS needed.
 from dataclasses import dataclass
 import math
 
-import numpy as np
-
 from hydra_actuator.assembly import (
     assemble,
     DOMAINS,
@@ -28,6 +26,7 @@ from hydra_actuator.core.observe import NOT_A_NUMBER, observe, read_field, TOO_F
 from hydra_actuator.errors import Failure
 from hydra_actuator.kernels import warm_kernels
 from hydra_actuator.parameters import Parameters
+import numpy as np
 
 
 class SolverError(Failure):

@@ -9,8 +9,6 @@ The second chamber is seen from G towards the piston, so its direction is -1.
 
 import math
 
-import numpy as np
-
 from hydra_actuator.channels import STATIONS
 from hydra_actuator.core.model import build_chain, Domain, Junction, Mesh, step_time_within
 from hydra_actuator.core.observe import SECTION
@@ -28,6 +26,7 @@ from hydra_actuator.core.records import (
     VALVE_PARAMETERS,
 )
 from hydra_actuator.parameters import ParameterError, Parameters
+import numpy as np
 
 DOMAINS = ('supply_line', 'line_1', 'chamber_1', 'chamber_2', 'line_2', 'return_line')
 SPOOL_1, SPOOL_2, LOAD_FORCE, TANK_PRESSURE = range(4)

@@ -18,15 +18,14 @@ import shutil
 import sys
 import tempfile
 
+import hydra_actuator.core
+from hydra_actuator.core.advance import advance
+from hydra_actuator.core.observe import observe, read_field
 import llvmlite
 import llvmlite.binding
 import numba
 from numba.core.caching import NullCache
 import numpy as np
-
-import hydra_actuator.core
-from hydra_actuator.core.advance import advance
-from hydra_actuator.core.observe import observe, read_field
 
 KERNELS = (advance, observe, read_field)
 MANIFEST = 'manifest.json'

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The pacer's grid, counts and statistics, on a clock that is told what time it is."""
 
+from hydra_actuator.pacer import DurationHistogram, Pacer
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
 import pytest
-
-from hydra_actuator.pacer import DurationHistogram, Pacer
 
 MS = 1_000_000
 

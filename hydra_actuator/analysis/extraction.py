@@ -10,13 +10,12 @@ import json
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import numpy as np
-
 from hydra_actuator.analysis.series import Command, Field, Report, Series
 from hydra_actuator.analysis.streamline import piston_faces
 from hydra_actuator.errors import InputError
 from hydra_actuator.parameters import read_parameter_file
 from hydra_actuator.recording.reader import load_recording, Recording
+import numpy as np
 
 JOINT_COMMANDS = '/joint_commands'
 

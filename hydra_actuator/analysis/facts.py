@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The numbers of a run, in words: duration, ticks, stroke, extreme pressures, real time."""
 
-import numpy as np
-
 from hydra_actuator.analysis import timing
 from hydra_actuator.analysis.figure import MEGAPASCAL, MICRO, MILLI
 from hydra_actuator.analysis.series import Series
 from hydra_actuator.analysis.window import dominant_frequency
 from hydra_actuator.parameters.table import definitions
+import numpy as np
 
 Rows = list[tuple[str, str]]
 

@@ -6,14 +6,13 @@ In a map x runs from pump to tank and time upwards: a wave is a line of slope 1/
 piston the line between the two chambers.
 """
 
-import numpy as np
-
 from hydra_actuator.analysis import streamline
 from hydra_actuator.analysis.decimation import bucket_extremes
 from hydra_actuator.analysis.figure import Figure, MEGAPASCAL, MILLI, rows_layout
 from hydra_actuator.analysis.palette import BLUE, ORANGE, PRESSURE_SCALE, VELOCITY_SCALE
 from hydra_actuator.analysis.series import Field, Series
 from hydra_actuator.analysis.window import Window
+import numpy as np
 
 SURFACE_FRAMES, MAP_FRAMES, COLUMNS = 160, 420, 360
 

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Lines over time: pressures and velocities of the sections; piston, spool and commands."""
 
-import numpy as np
-
 from hydra_actuator.analysis.decimation import line_samples
 from hydra_actuator.analysis.figure import Figure, MEGAPASCAL, MILLI, rows_layout
 from hydra_actuator.analysis.palette import BLUE, GREEN, line_style, ORANGE, PURPLE, SKY, VERMILION
 from hydra_actuator.analysis.series import Command, Series
 from hydra_actuator.analysis.window import Window
+import numpy as np
 
 SECTION_POINTS = 12_000      # of one line; a run of 10 s at 1 kHz is shown whole
 PISTON_POINTS = 20_000

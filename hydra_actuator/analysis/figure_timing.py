@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Real time over the run: lateness and execution of the ticks, overruns, sending, stamp steps."""
 
-import numpy as np
-
 from hydra_actuator.analysis import timing
 from hydra_actuator.analysis.decimation import extreme_samples
 from hydra_actuator.analysis.figure import Figure, logarithmic, MICRO, rows_layout
 from hydra_actuator.analysis.palette import BLUE, GREEN, ORANGE, VERMILION
 from hydra_actuator.analysis.series import Series
+import numpy as np
 
 BUCKETS = 200
 STAMP_POINTS = 8000

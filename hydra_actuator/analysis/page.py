@@ -13,10 +13,9 @@ import html
 from importlib import resources
 import json
 
-import numpy as np
-
 from hydra_actuator.analysis.figure import Figure
 from hydra_actuator.errors import InputError
+import numpy as np
 
 GENERATOR = '<meta name="generator" content="hydra_actuator report">'
 STEPS = 65534

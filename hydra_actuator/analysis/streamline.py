@@ -9,10 +9,9 @@ behind is laid upon its face, so every frame is a gapless row of (x, value), and
 two domains stays a jump: two nodes at one x. Between nodes the picture is linear.
 """
 
-import numpy as np
-
 from hydra_actuator.analysis.series import Field, Series
 from hydra_actuator.channels import STATIONS
+import numpy as np
 
 DOMAINS = ('supply_line', 'line_1', 'chamber_1', 'chamber_2', 'line_2', 'return_line')
 FEWEST_STATIONS = 6

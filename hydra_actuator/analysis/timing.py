@@ -9,9 +9,8 @@ diagnostics; how late its message left is the publish time of the message less i
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from hydra_actuator.analysis.series import Report, Series
+import numpy as np
 
 REAL_TIME = 'Real time'
 

@@ -9,9 +9,8 @@ domains; otherwise they would only alias.
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from hydra_actuator.analysis.series import Field, Series
+import numpy as np
 
 PERIODS_SHOWN = 3
 LONGEST_WINDOW = 0.1          # [s] of a run that is not periodic

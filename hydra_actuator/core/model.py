@@ -10,8 +10,6 @@ from its fixed end and a partial one at the face.
 from dataclasses import dataclass
 import math
 
-import numpy as np
-
 from hydra_actuator.core.line import GHOSTS
 from hydra_actuator.core.records import (
     JUNCTION,
@@ -22,6 +20,7 @@ from hydra_actuator.core.records import (
     State,
     VALVE_PARAMETERS,
 )
+import numpy as np
 
 
 @dataclass(frozen=True)

@@ -7,12 +7,11 @@ Reading writes ghost nodes only, which every step fills anew: it never changes a
 
 import math
 
-import numpy as np
-
 from hydra_actuator.core.compilation import formula, kernel
 from hydra_actuator.core.fluid import pressure_of
 from hydra_actuator.core.line import interpolate
 from hydra_actuator.core.step import continue_beyond_ends
+import numpy as np
 
 SOUND, NOT_A_NUMBER, TOO_FAST, TOO_SHORT = range(4)
 

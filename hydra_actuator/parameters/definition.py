@@ -12,9 +12,8 @@ from dataclasses import dataclass, replace
 import math
 from numbers import Integral, Real
 
-import numpy as np
-
 from hydra_actuator.errors import InputError
+import numpy as np
 
 Value = float | int | bool | str | tuple
 

@@ -14,11 +14,10 @@ from pathlib import Path
 import re
 from textwrap import indent
 
-import yaml
-
 from hydra_actuator.recording.definitions import type_hashes
 from hydra_actuator.recording.errors import RecordingError
 from hydra_actuator.recording.topics import Topic
+import yaml
 
 FILE_NAME = 'metadata.yaml'
 ROOT = 'rosbag2_bagfile_information'

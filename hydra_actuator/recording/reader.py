@@ -17,8 +17,6 @@ from functools import cached_property
 import json
 from pathlib import Path
 
-import numpy as np
-
 from hydra_actuator.channels import Channels
 from hydra_actuator.recording import messages
 from hydra_actuator.recording.errors import RecordingError
@@ -27,6 +25,7 @@ from hydra_actuator.recording.rows import StateTopics
 from hydra_actuator.recording.scan import scan, ScannedFile
 from hydra_actuator.recording.segment import CUSTOM_DATA
 from hydra_actuator.recording.series import Series
+import numpy as np
 
 COMMANDS = ('/spool_command', '/commands', '/joint_commands', '/load_force')
 

@@ -16,14 +16,13 @@ from pathlib import Path
 import struct
 import zlib
 
+from hydra_actuator.recording.errors import RecordingError
+from hydra_actuator.recording.segment import MAGIC
 from mcap.data_stream import ReadDataStream
 from mcap.exceptions import EndOfFile
 from mcap.opcode import Opcode
 from mcap.records import Channel, Metadata, Schema
 import numpy as np
-
-from hydra_actuator.recording.errors import RecordingError
-from hydra_actuator.recording.segment import MAGIC
 
 _RECORD = struct.Struct('<BQ')
 _CHUNK = struct.Struct('<QQQII')

@@ -19,6 +19,10 @@ from pathlib import Path
 import struct
 import zlib
 
+from hydra_actuator import __version__
+from hydra_actuator.recording.definitions import definition, ENCODING, type_hashes
+from hydra_actuator.recording.metadata import FileInformation
+from hydra_actuator.recording.topics import Topic
 from mcap.data_stream import RecordBuilder
 from mcap.opcode import Opcode
 from mcap.records import (
@@ -34,11 +38,6 @@ from mcap.records import (
     Statistics,
     SummaryOffset,
 )
-
-from hydra_actuator import __version__
-from hydra_actuator.recording.definitions import definition, ENCODING, type_hashes
-from hydra_actuator.recording.metadata import FileInformation
-from hydra_actuator.recording.topics import Topic
 
 MAGIC = b'\x89MCAP0\r\n'
 PROFILE = 'ros2'

@@ -10,13 +10,12 @@ message. Any other topic is decoded message by message.
 from collections.abc import Iterator
 from functools import cached_property
 
-from mcap.opcode import Opcode
-import numpy as np
-
 from hydra_actuator.recording import messages
 from hydra_actuator.recording.cdr import Codec, HEADER
 from hydra_actuator.recording.errors import RecordingError
 from hydra_actuator.recording.scan import Chunk
+from mcap.opcode import Opcode
+import numpy as np
 
 _HEAD = np.dtype([
     ('opcode', 'u1'), ('length', '<u8'), ('channel', '<u2'), ('sequence', '<u4'),

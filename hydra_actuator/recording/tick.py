@@ -9,8 +9,6 @@ effort: both are NaN in the joint state, whose arrays are all of full length.
 from collections.abc import Sequence
 import math
 
-import numpy as np
-
 from hydra_actuator.channels import Channels
 from hydra_actuator.recording.messages import (
     FluidPressureEncoder,
@@ -19,6 +17,7 @@ from hydra_actuator.recording.messages import (
     SECOND,
 )
 from hydra_actuator.recording.topics import ActuatorTopics
+import numpy as np
 
 QUANTITIES = 'pressure,velocity'
 

@@ -4,9 +4,6 @@
 import json
 from pathlib import Path
 
-import numpy as np
-import pytest
-
 from hydra_actuator.analysis.series import Command, Field, Report, Series
 from hydra_actuator.analysis.streamline import DOMAINS, piston_faces
 from hydra_actuator.channels import Channels, STATIONS
@@ -14,6 +11,8 @@ from hydra_actuator.recording import messages
 from hydra_actuator.recording.tick import FieldEncoder, TickEncoder
 from hydra_actuator.recording.topics import ActuatorTopics
 from hydra_actuator.recording.writer import RecordingWriter
+import numpy as np
+import pytest
 
 FREQUENCY = 50.0
 STATION_POSITIONS = np.array([0, 0.6, 0.6, 0.8, 0.8, 1, 1, 1.2, 1.2, 1.4, 1.4, 2.0])

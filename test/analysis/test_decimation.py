@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fewer points keep every extreme, exactly and in place."""
 
+from hydra_actuator.analysis.decimation import bucket_extremes, extreme_samples, line_samples
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 import numpy as np
 import pytest
-
-from hydra_actuator.analysis.decimation import bucket_extremes, extreme_samples, line_samples
 
 LINES = arrays(float, st.integers(1, 400), elements=st.floats(-1e9, 1e9))
 GAPPY = arrays(float, st.integers(1, 400), elements=st.floats(-1e9, 1e9) | st.just(float('nan')))

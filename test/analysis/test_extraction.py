@@ -3,14 +3,13 @@
 
 from dataclasses import replace
 
-import numpy as np
-import pytest
-
 from hydra_actuator.analysis.extraction import series_of
 from hydra_actuator.errors import InputError
 from hydra_actuator.recording import messages
 from hydra_actuator.recording.topics import ActuatorTopics
 from hydra_actuator.recording.writer import RecordingWriter
+import numpy as np
+import pytest
 
 
 def test_a_recorded_run_comes_back_whole(make_run, record):

@@ -3,12 +3,11 @@
 
 from dataclasses import replace
 
+from hydra_actuator.analysis import facts, figure_fields, figure_lines, figure_timing, report
+from hydra_actuator.analysis.window import window_of
 import numpy as np
 import plotly.graph_objects as go
 import pytest
-
-from hydra_actuator.analysis import facts, figure_fields, figure_lines, figure_timing, report
-from hydra_actuator.analysis.window import window_of
 
 KEYS = [
     'surface_pressure', 'surface_velocity', 'map_pressure', 'map_velocity', 'whole_pressure',

@@ -8,13 +8,12 @@ import json
 import re
 import sys
 
-import numpy as np
-import pytest
-
 from hydra_actuator.analysis import page as pages
 from hydra_actuator.analysis import report
 from hydra_actuator.analysis.figure import Figure
 from hydra_actuator.errors import InputError
+import numpy as np
+import pytest
 
 
 class Elements(HTMLParser):

@@ -3,10 +3,9 @@
 
 from dataclasses import replace
 
-import numpy as np
-
 from hydra_actuator.analysis import streamline
 from hydra_actuator.analysis.decimation import bucket_extremes
+import numpy as np
 
 
 def piston_at_frames(run):

@@ -3,9 +3,6 @@
 
 from dataclasses import replace
 
-import numpy as np
-import pytest
-
 from hydra_actuator.analysis import streamline
 from hydra_actuator.analysis.window import (
     best_field,
@@ -13,6 +10,8 @@ from hydra_actuator.analysis.window import (
     wave_window,
     window_of,
 )
+import numpy as np
+import pytest
 
 TIME = np.arange(5000) / 1000
 

@@ -3,13 +3,12 @@
 
 import json
 
-import pytest
-
 from hydra_actuator.cli.main import main
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.recording import messages
 from hydra_actuator.recording.topics import ActuatorTopics
 from hydra_actuator.recording.writer import RecordingWriter
+import pytest
 
 WALL = 1_763_877_600_000_000_000
 TOPICS = ActuatorTopics('/ns/actuator', ('O', 'K'))

@@ -7,12 +7,11 @@ import subprocess
 import sys
 import types
 
-import pytest
-
 import hydra_actuator
 from hydra_actuator.cli import main as dispatcher
 from hydra_actuator.cli.main import main, split_ros_arguments
 from hydra_actuator.errors import Failure, InputError
+import pytest
 
 CLI = Path(dispatcher.__file__).parent
 MODULES = sorted(path.stem for path in CLI.glob('*.py') if path.stem not in ('__init__', 'main'))

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """`report`: what it writes, and what it refuses without touching a file."""
 
-import pytest
-
 from hydra_actuator.cli.main import main
 from hydra_actuator.recording import messages
 from hydra_actuator.recording.topics import ActuatorTopics
 from hydra_actuator.recording.writer import RecordingWriter
+import pytest
 
 
 @pytest.fixture

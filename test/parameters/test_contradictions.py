@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameters that cannot be together: both are named, with their values."""
 
-import pytest
-
 from hydra_actuator import load_parameters
 from hydra_actuator.parameters import ParameterError
+import pytest
 
 
 @pytest.mark.parametrize('changes, named', [

@@ -3,12 +3,11 @@
 
 import math
 
+from hydra_actuator.parameters import ParameterError, PARAMETERS
 from hypothesis import given
 from hypothesis import strategies as st
 import numpy as np
 import pytest
-
-from hydra_actuator.parameters import ParameterError, PARAMETERS
 
 STROKE = PARAMETERS['valve.stroke']
 CELLS = PARAMETERS['solver.cells']

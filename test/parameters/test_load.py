@@ -3,12 +3,11 @@
 
 import pickle
 
+from hydra_actuator import load_parameters
+from hydra_actuator.parameters import definitions, ParameterError, PARAMETERS, Parameters
 from hypothesis import assume, given
 from hypothesis import strategies as st
 import pytest
-
-from hydra_actuator import load_parameters
-from hydra_actuator.parameters import definitions, ParameterError, PARAMETERS, Parameters
 
 STATIONS = PARAMETERS['sections.names'].default
 

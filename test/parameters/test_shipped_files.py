@@ -3,14 +3,13 @@
 
 from pathlib import Path
 
-import pytest
-
 from hydra_actuator import load_parameters
 from hydra_actuator.parameters import PARAMETERS, read_parameter_file
 from hydra_actuator.parameters.markdown import with_table
 from hydra_actuator.parameters.table_actuator import ACTUATOR
 from hydra_actuator.parameters.table_hydraulics import HYDRAULICS
 from hydra_actuator.parameters.table_running import RUNNING
+import pytest
 
 ROOT = Path(__file__).parents[2]
 CONFIG = ROOT / 'config'

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameter files: keys, values and complaints, without ROS."""
 
+from hydra_actuator.parameters import ParameterError, read_parameter_file
+from hydra_actuator.parameters.yaml_files import as_parameter_file, read_scalar
 from hypothesis import given
 from hypothesis import strategies as st
 import pytest
-
-from hydra_actuator.parameters import ParameterError, read_parameter_file
-from hydra_actuator.parameters.yaml_files import as_parameter_file, read_scalar
 
 
 @pytest.fixture

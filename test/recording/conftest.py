@@ -5,14 +5,13 @@ from collections.abc import Callable
 import json
 from pathlib import Path
 
-import numpy as np
-import pytest
-
 from hydra_actuator.channels import Channels
 from hydra_actuator.recording import messages
 from hydra_actuator.recording.tick import AppliedEncoder, FieldEncoder, TickEncoder
 from hydra_actuator.recording.topics import ActuatorTopics
 from hydra_actuator.recording.writer import RecordingWriter
+import numpy as np
+import pytest
 
 START = 1_763_877_600_000_000_000
 PERIOD = 1_000_000

@@ -3,10 +3,6 @@
 
 import math
 
-from hypothesis import given
-from hypothesis import strategies as st
-import pytest
-
 from hydra_actuator.recording.cdr import CdrError, Codec, codec
 from hydra_actuator.recording.messages import (
     DIAGNOSTICS,
@@ -16,6 +12,9 @@ from hydra_actuator.recording.messages import (
     JOINT_STATE,
     STRING,
 )
+from hypothesis import given
+from hypothesis import strategies as st
+import pytest
 
 TEXT = st.text(st.characters(exclude_categories=['Cs']), max_size=12)
 FLOAT = st.floats(width=64)

@@ -7,9 +7,8 @@ from pathlib import Path
 import re
 import sys
 
-import pytest
-
 from hydra_actuator.recording.definitions import definition, type_hashes
+import pytest
 
 PRIMITIVES = {
     'bool', 'byte', 'char', 'float32', 'float64', 'int8', 'uint8', 'int16', 'uint16', 'int32',

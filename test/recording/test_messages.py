@@ -4,6 +4,8 @@
 import math
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from hydra_actuator.recording import messages
+from hydra_actuator.recording.cdr import codec
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import pytest
@@ -18,9 +20,6 @@ from std_msgs.msg import (
     MultiArrayDimension,
     String,
 )
-
-from hydra_actuator.recording import messages
-from hydra_actuator.recording.cdr import codec
 
 NAN, INF = math.nan, math.inf
 STAMP = 1_763_877_600_123_456_789

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Any text survives metadata.yaml, and what it says of an empty recording."""
 
+from hydra_actuator.recording.errors import RecordingError
+from hydra_actuator.recording.metadata import BagMetadata, FileInformation, quoted, read_metadata
+from hydra_actuator.recording.topics import ActuatorTopics
 from hypothesis import example, given
 from hypothesis import strategies as st
 import pytest
 import yaml
-
-from hydra_actuator.recording.errors import RecordingError
-from hydra_actuator.recording.metadata import BagMetadata, FileInformation, quoted, read_metadata
-from hydra_actuator.recording.topics import ActuatorTopics
 
 
 @given(st.text())

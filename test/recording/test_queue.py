@@ -5,12 +5,11 @@ from collections import Counter
 import threading
 import time
 
-from rosbags.rosbag2 import Reader
-
 from hydra_actuator.recording import messages
 from hydra_actuator.recording.queue import QueuedWriter
 from hydra_actuator.recording.topics import Topic
 from hydra_actuator.recording.writer import RecordingWriter
+from rosbags.rosbag2 import Reader
 
 TOPICS = ['/a', '/b']
 

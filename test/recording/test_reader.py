@@ -3,13 +3,6 @@
 
 import shutil
 
-from mcap.reader import make_reader
-from mcap.writer import CompressionType, IndexType, Writer
-import numpy as np
-import pytest
-from rclpy.serialization import serialize_message
-from sensor_msgs.msg import JointState
-
 from hydra_actuator import load_recording
 from hydra_actuator.recording import messages
 from hydra_actuator.recording.definitions import definition
@@ -17,6 +10,12 @@ from hydra_actuator.recording.errors import RecordingError
 from hydra_actuator.recording.tick import AppliedEncoder
 from hydra_actuator.recording.topics import ActuatorTopics, Topic
 from hydra_actuator.recording.writer import RecordingWriter
+from mcap.reader import make_reader
+from mcap.writer import CompressionType, IndexType, Writer
+import numpy as np
+import pytest
+from rclpy.serialization import serialize_message
+from sensor_msgs.msg import JointState
 
 
 def assert_rows_are_those_made(recording, made) -> None:

@@ -3,13 +3,12 @@
 
 import math
 
-import numpy as np
-import pytest
-
 from hydra_actuator.channels import Channels
 from hydra_actuator.recording import messages
 from hydra_actuator.recording.tick import AppliedEncoder, FieldEncoder, TickEncoder
 from hydra_actuator.recording.topics import ActuatorTopics
+import numpy as np
+import pytest
 
 STAMP = 1_763_877_600_123_456_789
 SECTIONS = ('O', 'tap_2')

@@ -3,13 +3,12 @@
 
 from pathlib import Path
 
+from hydra_actuator import load_parameters
+from hydra_actuator.parameters import read_parameter_file
 import pytest
 import rclpy
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-
-from hydra_actuator import load_parameters
-from hydra_actuator.parameters import read_parameter_file
 
 CONFIG = Path(__file__).parents[2] / 'config'
 
