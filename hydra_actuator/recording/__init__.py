@@ -9,6 +9,7 @@ Nothing in here imports rclpy; it knows the channels of the actuator, not its ph
     messages     the messages of this package, and fast encoders for the frequent ones
     tick         one observation row as messages
     topics       names, types and quality of service of what is recorded
+    run_data     with what a recording was made
     segment      one MCAP file being written
     metadata     the text of metadata.yaml
     writer       a recording: directory, metadata, segments
