@@ -49,6 +49,7 @@ class ActuatorTopics:
         """Take the fully qualified name of the node and its sections."""
         namespace = node.rpartition('/')[0]
         self.joint_states = f'{namespace}/joint_states'
+        self.clock = '/clock'
         self.pressure = {name: f'{node}/pressure/{name}' for name in section_names}
         self.sections = f'{node}/sections'
         self.field = f'{node}/field'
@@ -72,6 +73,7 @@ class ActuatorTopics:
             Topic(self.events, messages.DIAGNOSTICS),
             Topic(self.diagnostics, messages.DIAGNOSTICS),
             Topic(self.parameter_events, messages.PARAMETER_EVENT),
+            Topic(self.clock, messages.CLOCK),
         ]
 
     def received(self) -> list[Topic]:

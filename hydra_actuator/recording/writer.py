@@ -16,6 +16,7 @@ from pathlib import Path
 import struct
 import time
 
+from hydra_actuator.recording.definitions import type_hashes
 from hydra_actuator.recording.errors import RecordingError, RecordingFailure
 from hydra_actuator.recording.metadata import BagMetadata, FILE_NAME
 from hydra_actuator.recording.segment import COMPRESSIONS, Message, Segment
@@ -58,11 +59,12 @@ class RecordingWriter:
         self.directory = Path(os.path.abspath(directory))
         self.closed = False
         self._flush_period = flush_period
-        self._metadata = BagMetadata(topics, custom_data or {})
+        topics, custom_data = _checked(topics), dict(custom_data or {})
+        self._metadata = BagMetadata(topics, custom_data)
         _make_directory(self.directory)
         try:
             self._segment = Segment(
-                self.directory / f'{self.directory.name}_0.mcap', topics, custom_data or {},
+                self.directory / f'{self.directory.name}_0.mcap', topics, custom_data,
                 chunk_size, compression,
             )
             self._write_metadata()
@@ -134,6 +136,17 @@ class RecordingWriter:
         new = path.with_suffix('.yaml.new')
         new.write_text(text, 'utf-8')
         os.replace(new, path)
+
+
+def _checked(topics: Iterable[Topic]) -> list[Topic]:
+    """Return the topics, each once; RecordingError for an unknown type, or two of one name."""
+    by_name: dict[str, Topic] = {}
+    for topic in topics:
+        if topic.type not in type_hashes():
+            raise RecordingError(f'{topic.name}: {topic.type} is no type this package can record')
+        if by_name.setdefault(topic.name, topic) != topic:
+            raise RecordingError(f'two different topics are named {topic.name}')
+    return list(by_name.values())
 
 
 def _make_directory(directory: Path) -> None:

@@ -7,6 +7,9 @@ import signal
 import subprocess
 import sys
 
+from hydra_actuator.recording import messages
+from hydra_actuator.recording.topics import ActuatorTopics, Topic
+from hydra_actuator.recording.writer import RecordingError, RecordingFailure, RecordingWriter
 from mcap.reader import make_reader
 from mcap.stream_reader import StreamReader
 from mcap_ros2.decoder import DecoderFactory
@@ -15,10 +18,6 @@ from rosbags.interfaces import QosReliability
 from rosbags.rosbag2 import Reader
 from rosbags.typesys import get_typestore, Stores
 import yaml
-
-from hydra_actuator.recording import messages
-from hydra_actuator.recording.topics import ActuatorTopics, Topic
-from hydra_actuator.recording.writer import RecordingError, RecordingFailure, RecordingWriter
 
 COMMAND = Topic('/actuator/spool_command', messages.FLOAT64, 'best_effort')
 
@@ -194,6 +193,19 @@ def test_an_unknown_compression_leaves_nothing_behind(tmp_path):
     with pytest.raises(RecordingError, match='lz5'):
         RecordingWriter(tmp_path / 'run', [COMMAND], compression='lz5')
     assert os.listdir(tmp_path) == []
+
+
+def test_a_topic_given_twice_is_one_and_two_of_one_name_are_refused(tmp_path):
+    other = Topic(COMMAND.name, messages.STRING)
+    with pytest.raises(RecordingError, match='spool_command'):
+        RecordingWriter(tmp_path / 'run', [COMMAND, other])
+    with pytest.raises(RecordingError, match='Wrench'):
+        RecordingWriter(tmp_path / 'run', [Topic('/a', 'geometry_msgs/msg/Wrench')])
+    assert os.listdir(tmp_path) == []
+    with RecordingWriter(tmp_path / 'run', [COMMAND, COMMAND]) as writer:
+        writer.write(COMMAND.name, 1, 1, messages.float64(1.0))
+    with Reader(tmp_path / 'run') as reader:
+        assert [(c.topic, c.msgcount) for c in reader.connections] == [(COMMAND.name, 1)]
 
 
 def test_a_strange_topic_and_a_negative_time_are_refused_and_cost_nothing_else(tmp_path):
