@@ -9,10 +9,9 @@ velocities at instants that their own, slower topics left out.
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from hydra_actuator.channels import Channels
 from hydra_actuator.recording.series import Series
+import numpy as np
 
 
 @dataclass(frozen=True)
@@ -58,8 +57,10 @@ class StateTopics:
         """Return the load [N] in force at each stamp: 0 before the first applied one."""
         if not len(self.applied):
             return 0.0
-        loads = np.concatenate([[0.0], self.applied.numbers()[:, -1]])
-        return loads[np.searchsorted(self.applied.stamps, stamps, 'right')]
+        changes = self.applied.stamps
+        order = np.argsort(changes, kind='stable')
+        loads = np.concatenate([[0.0], self.applied.numbers()[order, -1]])
+        return loads[np.searchsorted(changes[order], stamps, 'right')]
 
     def _enter_sections(self, rows: np.ndarray, channels: Channels, stamps: np.ndarray) -> None:
         """Enter pressures and velocities; a pressure topic goes before the sections' array."""
