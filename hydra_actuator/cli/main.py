@@ -106,6 +106,7 @@ def _parser(verb: str):
     import argparse
 
     class Parser(argparse.ArgumentParser):
+
         def error(self, message: str):
             raise InputError(message)
 

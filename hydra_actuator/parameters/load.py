@@ -69,7 +69,7 @@ class Parameters(Mapping[str, Value]):
 
     @property
     def table(self) -> Mapping[str, Parameter]:
-        """The definitions, those of the sections' pressure faults included."""
+        """Return the definitions, those of the sections' pressure faults included."""
         return self._table
 
     def replace(self, changes: Mapping[str, object]) -> 'Parameters':
