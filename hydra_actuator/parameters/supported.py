@@ -24,6 +24,10 @@ AVAILABLE: dict[str, tuple[Value, ...]] = {
     'sensor.pressure_resolution': (0.0,),
     'sensor.delay': (0.0,),
     'fault.enabled': (False,),
+    'recording.mode': ('continuous',),
+    'recording.split_size': (0,),
+    'recording.split_duration': (0.0,),
+    'recording.min_free_space': (0,),
 }
 
 

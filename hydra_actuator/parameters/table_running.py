@@ -83,9 +83,9 @@ RECORDING = group(
     double('flush_period', 0.5, 's', (0.01, 60.0), 'most that a crash can lose'),
     integer('split_size', 0, (0, 2**50), 'of a file before the next begins; 0: never', 'B'),
     double('split_duration', 0.0, 's', (0.0, 1e7), 'of a file before the next; 0: never'),
-    string('compression', 'none', 'of the chunks', ('none', 'lz4', 'zstd')),
-    integer('min_free_space', 2**28, (0, 2**60), 'left on the disk; recording pauses below',
-            'B'),
+    string('compression', 'none', 'of the chunks', ('none', 'zstd')),
+    integer('min_free_space', 0, (0, 2**60),
+            'left on the disk; recording pauses below; 0: no limit', 'B'),
 )
 
 AUTOSTART = (boolean('autostart', True, 'configure and activate without being asked'),)
