@@ -14,6 +14,7 @@ from hydra_actuator.assembly import (
     DOMAINS,
     INPUTS,
     LOAD_FORCE,
+    section_positions,
     sections,
     set_supply_pressure,
     SPOOL_1,
@@ -138,9 +139,9 @@ class Actuator:
         """
         Advance by a duration [s], rounded up to whole steps, and return the state.
 
-        spool: normalised command -1..1, one for each spool or one for all; load_force [N], positive
-        opposes positive motion; None keeps the last. Raises SolverError where the method breaks,
-        ValueError for a command that is no number or out of range.
+        spool: normalised command -1..1, one for each spool or one for all; load_force [N],
+        positive opposes positive motion; None keeps the last. Raises SolverError where the method
+        breaks, ValueError for a command that is no number or out of range.
         """
         table = self._table[0]
         if spool is not None:
@@ -206,6 +207,11 @@ class Actuator:
             x = model.origin[d] + model.direction[d] * x
             parts.append(x if model.direction[d] > 0 else x[::-1])
         return np.concatenate(parts)
+
+    @property
+    def section_positions(self) -> list[float]:
+        """Streamline coordinate [m] of each section; the piston's faces at mid-stroke."""
+        return section_positions(self.parameters, self._sections)
 
     def read_field(self, out: np.ndarray) -> None:
         """Write absolute pressure [Pa] and velocity [m/s] of all nodes, float32 (nodes, 2)."""

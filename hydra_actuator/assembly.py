@@ -132,6 +132,18 @@ def sections(parameters: Parameters) -> np.ndarray:
     return records
 
 
+def section_positions(parameters: Parameters, records: np.ndarray) -> list[float]:
+    """Return the streamline coordinate [m] of sections; the piston's faces at mid-stroke."""
+    starts = origins(parameters)
+    middle = starts[2] + (parameters['cylinder.dead_length_1']
+                          + 0.5 * parameters['cylinder.stroke'])
+    total = starts[5] + parameters['return_line.length']
+    of_end = (starts[0], starts[1], starts[1], starts[2], starts[2], middle, starts[3], middle,
+              starts[4], starts[5], starts[5], total)
+    return [of_end[record['end']] if record['end'] >= 0 else float(record['position'])
+            for record in records]
+
+
 def _line_area(p: Parameters, name: str) -> float:
     return 0.25 * math.pi * p[f'{name}.diameter'] ** 2
 
@@ -221,7 +233,7 @@ def _source(p: Parameters, speed: float) -> np.ndarray:
 
 def set_supply_pressure(source: np.ndarray, pressure: float, speed: float,
                         bulk_modulus: float) -> None:
-    """Set the pump's relief pressure [Pa, gauge]; speed [m/s] and bulk modulus [Pa] of its line."""
+    """Set the relief pressure [Pa, gauge]; speed [m/s], bulk modulus [Pa] of the pump's line."""
     source['pressure'] = pressure
     source['relative_density'] = 1.0 + pressure / bulk_modulus
     source['mu'] = speed * math.log1p(pressure / bulk_modulus)
