@@ -29,13 +29,14 @@ venv: .venv/installed
 # Made afresh when what it is made of changes. --use-pep517 because an old pip would otherwise obey
 # setup.cfg, which puts the commands where `ros2 run` looks, not into bin/.
 .venv/installed: setup.py setup.cfg constraints.txt
-	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 13))' || \
+	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 13))' 2>/dev/null || \
 	  { echo 'make: $(PYTHON) is not Python 3.11 to 3.13; try make PYTHON=python3.12' >&2; exit 1; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
 	  { echo 'make: $(PYTHON) cannot make environments: apt install python3-venv' >&2; exit 1; }
-	rm -rf .venv
-	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --use-pep517 -c constraints.txt -e '.[test,ros,report]'
+	@echo 'make: installing ROS 2 and all else into .venv, a minute or two'
+	@rm -rf .venv
+	@$(PYTHON) -m venv .venv
+	@$(BIN)/python -m pip install --quiet --use-pep517 -c constraints.txt -e '.[test,ros,report]'
 	@touch $@
 
 clean:
