@@ -34,7 +34,8 @@ setup(
     ],
     extras_require={
         'test': [
-            'hypothesis', 'matplotlib', 'plotly', 'pytest', 'rosbags', 'ruff', 'scipy',
+            'hypothesis', 'matplotlib', 'mcap-ros2-support', 'plotly', 'pytest', 'rosbags', 'ruff',
+            'scipy',
         ],
         'ros': [
             'ros-jazzy-rclpy', 'ros-jazzy-common-interfaces', 'ros-jazzy-rmw-fastrtps-cpp',
