@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The command that holds, between the thread that receives and the thread that solves.
+
+Each attribute is replaced as a whole, so a reader meets the old or the new value, never half of
+one. A load holds for ever; a spool command until `timeout` has passed in silence.
+"""
+
+from collections.abc import Callable
+import time
+
+from hydra_actuator.ros.commands import CENTRED, Spools
+
+
+class Setpoint:
+    """What the valve and the load are asked to be now."""
+
+    def __init__(
+        self, timeout: float = 0.0, on_timeout: str = 'hold',
+        clock: Callable[[], int] = time.monotonic_ns,
+    ):
+        """Take the silence [s] after which `on_timeout` (`hold`, `centre`) acts; 0 is never."""
+        self.timed_out = False
+        self.timeouts = 0
+        self._clock = clock
+        self._spools = CENTRED
+        self._load_force = 0.0
+        self._accepted_ns = clock()
+        self.set_timeout(timeout, on_timeout)
+
+    def set_timeout(self, timeout: float, on_timeout: str) -> None:
+        """Change what silence does."""
+        self._limit = (round(timeout * 1e9), on_timeout == 'centre')
+
+    def accept(self, spools: Spools) -> None:
+        """Hold a spool command from the next tick on."""
+        self._accepted_ns = self._clock()
+        self._spools = spools
+
+    def accept_load(self, load_force: float) -> None:
+        """Hold an external load [N] from the next tick on."""
+        self._load_force = load_force
+
+    def centre(self) -> None:
+        """Forget the spool command: 0, as before the first one."""
+        self.accept(CENTRED)
+
+    @property
+    def silence(self) -> float:
+        """Time [s] since the last accepted spool command, or since `centre`."""
+        return (self._clock() - self._accepted_ns) * 1e-9
+
+    def sample(self) -> tuple[float, float, float]:
+        """Return (spool 1, spool 2, load [N]) as they hold at this instant."""
+        spools = self._spools
+        limit_ns, centre = self._limit
+        if limit_ns:
+            silent = self._clock() - self._accepted_ns > limit_ns
+            self.timeouts += silent and not self.timed_out
+            self.timed_out = silent
+            if silent and centre:
+                spools = CENTRED
+        else:
+            self.timed_out = False
+        return (*spools, self._load_force)
