@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Memory between the solver's thread and the publishing thread: one writes, one reads, none waits.
+
+All of it is allocated beforehand. The writer never looks at the reader; a reader that falls
+behind by more than the length loses the oldest entries, and counts them.
+"""
+
+from collections.abc import Iterator
+import threading
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Tick(NamedTuple):
+    """
+    One tick as it was solved.
+
+    number: rows since the start, resets included; stamp [ns]; tick: of the simulation, at its
+    begin; inputs: (spool 1, spool 2, load [N]) held during it; row: the observation at its end.
+    """
+
+    number: int
+    stamp: int
+    tick: int
+    inputs: list[float]
+    row: list[float]
+
+
+class Frame(NamedTuple):
+    """The whole field at one instant: stamp [ns], simulated time [s], (nodes, 2) values."""
+
+    stamp: int
+    time: float
+    values: np.ndarray
+
+
+class Ring:
+    """Rows of ticks and frames of the field, with a signal that there are new ones."""
+
+    def __init__(self, width: int, nodes: int, length: int = 4096, frames: int = 256):
+        """Take the width of a row and the number of nodes of the field."""
+        self._stamps = np.zeros(length, np.int64)
+        self._ticks = np.zeros(length, np.int64)
+        self._inputs = np.zeros((length, 3))
+        self._rows = np.zeros((length, width))
+        self._field_stamps = np.zeros(frames, np.int64)
+        self._field_times = np.zeros(frames)
+        self._field = np.zeros((frames, nodes, 2), np.float32)
+        self._written = self._read = 0
+        self._frames_written = self._frames_read = 0
+        self._news = threading.Lock()
+        self._news.acquire()
+        self.lost = 0
+
+    def push(self, stamp: int, tick: int, inputs: tuple[float, ...], row: np.ndarray) -> None:
+        """Add a tick; for the writer only."""
+        slot = self._written % len(self._stamps)
+        self._stamps[slot] = stamp
+        self._ticks[slot] = tick
+        self._inputs[slot] = inputs
+        self._rows[slot] = row
+        self._written += 1
+
+    def frame(self) -> np.ndarray:
+        """Return the place for the next frame's values; for the writer only."""
+        return self._field[self._frames_written % len(self._field)]
+
+    def push_frame(self, stamp: int, time: float) -> None:
+        """Add the frame whose values were put into `frame()`; for the writer only."""
+        slot = self._frames_written % len(self._field)
+        self._field_stamps[slot] = stamp
+        self._field_times[slot] = time
+        self._frames_written += 1
+
+    def signal(self) -> None:
+        """Wake the reader; costs the writer no wait."""
+        if self._news.locked():
+            self._news.release()
+
+    def wait(self, timeout: float) -> None:
+        """Wait until signalled, at most `timeout` [s]; for the reader only."""
+        self._news.acquire(timeout=timeout)
+
+    def ticks(self) -> Iterator[Tick]:
+        """Take the ticks that are new; for the reader only."""
+        end, length = self._written, len(self._stamps)
+        # The oldest slot may be written over while it is read: it counts as lost already.
+        first = max(self._read, end - length + 1)
+        self.lost += first - self._read
+        for number in range(first, end):
+            slot = number % length
+            yield Tick(
+                number, int(self._stamps[slot]), int(self._ticks[slot]),
+                self._inputs[slot].tolist(), self._rows[slot].tolist(),
+            )
+        self._read = end
+
+    def frames(self) -> Iterator[Frame]:
+        """Take the frames that are new; the values are good until the ring has gone round."""
+        end, length = self._frames_written, len(self._field)
+        for number in range(max(self._frames_read, end - length + 1), end):
+            slot = number % length
+            yield Frame(
+                int(self._field_stamps[slot]), float(self._field_times[slot]), self._field[slot])
+        self._frames_read = end
