@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The publishing thread: what the solver put into the ring goes out, and into the recording.
+
+Each message is encoded once; the same bytes are published and recorded. The joint state of a
+tick goes first: a controller waits for it. The log time of a message is the instant of the
+state, its publish time the one at which the batch was taken from the ring.
+"""
+
+from collections.abc import Callable, Mapping
+import math
+import threading
+import time
+
+from hydra_actuator.channels import Channels
+from hydra_actuator.recording import messages
+from hydra_actuator.recording.tick import AppliedEncoder, FieldEncoder, TickEncoder
+from hydra_actuator.recording.topics import ActuatorTopics
+from hydra_actuator.ros.ring import Frame, Ring, Tick
+import numpy as np
+
+Publish = Callable[[bytes], None]
+
+
+class Schedule:
+    """Which ticks go out: those at or next after the instants of a rate [Hz]; none at 0."""
+
+    def __init__(self, rate: float, period: float):
+        # A rate of one per tick must not lose ticks to rounding.
+        self._share = min(1.0, rate * period * (1.0 + 1e-12))
+
+    def due(self, number: int) -> bool:
+        """Tell whether the tick of that number, counted from 0, goes out."""
+        share = self._share
+        if share >= 1.0:
+            return True
+        if number == 0:
+            return share > 0.0
+        return math.floor(number * share) != math.floor((number - 1) * share)
+
+
+class Outputs:
+    """
+    Turns ticks and frames into messages.
+
+    publishers: a publish function by topic; a topic without one is recorded only. on_error
+    is told what happened if the thread dies.
+    """
+
+    def __init__(
+        self, ring: Ring, topics: ActuatorTopics, channels: Channels,
+        publishers: Mapping[str, Publish], put_batch: Callable[[list], None],
+    ):
+        self.on_error: Callable[[BaseException], None] = lambda error: None
+        self.after_batch: Callable[[], None] = lambda: None
+        self.published = 0
+        self.encoder: TickEncoder | None = None
+        self._ring = ring
+        self._topics = topics
+        self._channels = channels
+        self._publishers = publishers
+        self._put_batch = put_batch
+        self._applied = AppliedEncoder(channels.spools)
+        self._last_inputs: list[float] | None = None
+        self._field: FieldEncoder | None = None
+        self._thread: threading.Thread | None = None
+        self._stopping = False
+
+    def encoder_for(self, joint_names: tuple[str, ...]) -> TickEncoder:
+        """Return an encoder that names piston and spools so, to be put into `encoder`."""
+        return TickEncoder(self._channels, joint_names, self._topics)
+
+    def set_rates(self, parameters: Mapping[str, float]) -> None:
+        """Take the rates of publishing from parameters."""
+        period = parameters['timing.period']
+        self._joint_states, self._pressures, self._sections = (
+            Schedule(parameters[f'publish.{rate}'], period)
+            for rate in ('rate', 'pressure_rate', 'sections_rate'))
+        clock_rate = parameters['publish.clock_rate'] if parameters['publish.clock'] else 0.0
+        self._clock = Schedule(clock_rate, period)
+        self._period_ns = round(period * 1e9)
+
+    def start(self) -> None:
+        """Begin publishing."""
+        self._stopping = False
+        self._thread = threading.Thread(target=self._run, name='outputs', daemon=True)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Publish what is in the ring, then end the thread."""
+        if self._thread is not None:
+            self._stopping = True
+            self._ring.signal()
+            self._thread.join()
+            self._thread = None
+
+    def forget_inputs(self) -> None:
+        """Have the next tick say what was applied, changed or not."""
+        self._last_inputs = None
+
+    def _run(self) -> None:
+        try:
+            while not self._stopping:
+                self._ring.wait(0.1)
+                self.take()
+            self.take()
+        except Exception as error:
+            self.on_error(error)
+
+    def take(self) -> None:
+        """Publish and record all that is new in the ring; by others only while stopped."""
+        now = time.time_ns()
+        recorded = []
+        for tick in self._ring.ticks():
+            for topic, log, data in self._messages(tick):
+                self._publish(topic, data)
+                recorded.append((topic, log, now, data))
+        for frame in self._ring.frames():
+            data = self._encode_frame(frame)
+            self._publish(self._topics.field, data)
+            recorded.append((self._topics.field, frame.stamp, now, data))
+        if recorded:
+            self.published += len(recorded)
+            self._put_batch(recorded)
+        self.after_batch()
+
+    def _publish(self, topic: str, data: bytes) -> None:
+        publish = self._publishers.get(topic)
+        if publish is not None:
+            publish(data)
+
+    def _messages(self, tick: Tick) -> list[tuple[str, int, bytes]]:
+        """Return (topic, log time, message) of a tick, the joint state first."""
+        number, stamp, row, encoder = tick.number, tick.stamp, tick.row, self.encoder
+        encoded = []
+        if self._joint_states.due(number):
+            encoded.append(
+                (self._topics.joint_states, stamp, encoder.joint_state(row, stamp)))
+        if self._pressures.due(number):
+            encoded += [
+                (topic, stamp, data) for topic, data in encoder.pressures(row, stamp)]
+        if self._sections.due(number):
+            encoded.append((self._topics.sections, stamp, encoder.sections(row, stamp)))
+        if self._clock.due(number):
+            encoded.append((self._topics.clock, stamp, messages.clock(stamp)))
+        if tick.inputs != self._last_inputs:
+            encoded.append(self._encode_inputs(tick))
+        return encoded
+
+    def _encode_inputs(self, tick: Tick) -> tuple[str, int, bytes]:
+        """Return what the solver took, at the instant from which it held."""
+        self._last_inputs = tick.inputs
+        spools, load_force = tick.inputs[:self._channels.spools], tick.inputs[2]
+        data = self._applied.encode(tick.tick, spools, load_force)
+        since = tick.stamp - self._period_ns if tick.number else tick.stamp
+        return self._topics.applied, since, data
+
+    def _encode_frame(self, frame: Frame) -> bytes:
+        if self._field is None:
+            self._field = FieldEncoder(len(frame.values))
+        return self._field.encode(frame.time, np.ascontiguousarray(frame.values))

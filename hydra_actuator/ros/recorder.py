@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The recording of a node: a directory named by node and time, begun and ended at will.
+
+Messages are handed to a queue with a thread of its own behind it; what comes while nothing is
+recorded is let go.
+"""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+import time
+
+from hydra_actuator.parameters import Parameters
+from hydra_actuator.recording.errors import RecordingError
+from hydra_actuator.recording.queue import QueuedWriter, QueueStatistics
+from hydra_actuator.recording.segment import Message
+from hydra_actuator.recording.topics import Topic
+from hydra_actuator.recording.writer import RecordingWriter
+
+# A closing file is written within this time [s], or given up.
+CLOSING = 1.0
+
+
+class Recorder:
+    """Where messages go that are to be kept."""
+
+    def __init__(
+        self, node: str, parameters: Parameters, topics: Sequence[Topic],
+        custom_data: Mapping[str, str],
+    ):
+        """Take the fully qualified name of the node, and what its recordings carry."""
+        self.path: Path | None = None
+        self._node = node.strip('/').replace('/', '_')
+        self._parameters = parameters
+        self._topics = topics
+        self._custom_data = custom_data
+        self._writer: QueuedWriter | None = None
+
+    @property
+    def recording(self) -> bool:
+        """Tell whether a recording is open."""
+        return self._writer is not None
+
+    @property
+    def error(self) -> str:
+        """Why nothing more is written to the open recording; '' if all is well."""
+        writer = self._writer
+        return str(writer.error) if writer is not None and writer.error is not None else ''
+
+    @property
+    def statistics(self) -> QueueStatistics | None:
+        """Counts of the open recording."""
+        writer = self._writer
+        return None if writer is None else writer.statistics
+
+    def open(self) -> Path:
+        """Begin a recording and return its directory; raises RecordingError."""
+        directory = Path(self._parameters['recording.directory']).expanduser()
+        name = f'{self._node}_{time.strftime("%Y%m%d_%H%M%S")}'
+        writer = self._new_writer(directory, name)
+        self.path = writer.directory
+        self._writer = QueuedWriter(writer)
+        return self.path
+
+    def close(self) -> bool:
+        """End the recording; False if it could not be finished in time."""
+        writer, self._writer = self._writer, None
+        return writer is None or (writer.close(CLOSING) and writer.error is None)
+
+    def put(self, topic: str, log_ns: int, publish_ns: int, data: bytes) -> None:
+        """Keep one message."""
+        writer = self._writer
+        if writer is not None:
+            writer.put(topic, log_ns, publish_ns, data)
+
+    def put_batch(self, messages: list[Message]) -> None:
+        """Keep messages (topic, log time, publish time, bytes)."""
+        writer = self._writer
+        if writer is not None:
+            writer.put_batch(messages)
+
+    def _new_writer(self, directory: Path, name: str) -> RecordingWriter:
+        """Open a directory of that name, or the first of name_2, name_3 ... that is free."""
+        parameters = self._parameters
+        number = 1
+        while True:
+            path = directory / (name if number == 1 else f'{name}_{number}')
+            try:
+                return RecordingWriter(
+                    path, self._topics, self._custom_data,
+                    flush_period=parameters['recording.flush_period'],
+                    compression=parameters['recording.compression'],
+                )
+            except RecordingError:
+                if not path.is_dir():
+                    raise
+                number += 1
