@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+What /diagnostics says: five statuses from counts and figures. No ROS in here.
+
+Levels as diagnostic_msgs has them. What happens once (a missed tick, a dropped command) shows as
+a warning for as long as `RECENT`, so that a listener at 1 Hz cannot fail to see it.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+import time
+
+from hydra_actuator.pacer import Pacer
+from hydra_actuator.ros.commands import CommandDesk
+from hydra_actuator.ros.recorder import Recorder
+from hydra_actuator.ros.setpoint import Setpoint
+
+OK, WARN, ERROR = 0, 1, 2
+RECENT = 2.0
+
+
+@dataclass(frozen=True)
+class Status:
+    """One line of diagnostics: its name without the node, level, text, and values."""
+
+    name: str
+    level: int
+    message: str
+    values: Mapping[str, str] = field(default_factory=dict)
+
+
+class Recently:
+    """Tells whether a count has grown within the last RECENT seconds."""
+
+    def __init__(self):
+        self._count = 0
+        self._until = 0.0
+
+    def grew(self, count: int) -> bool:
+        """Take the count as it is now."""
+        now = time.monotonic()
+        if count > self._count:
+            self._until = now + RECENT
+        self._count = count
+        return now < self._until
+
+
+def real_time(
+    pacer: Pacer, period: float, missed_recently: bool, setup: Mapping[str, str]
+) -> Status:
+    """Return how well the ticks keep to their grid; durations in microseconds."""
+    elapsed = pacer.elapsed
+    factor = pacer.ticks * period / elapsed if elapsed > 0.0 else 0.0
+    values = {
+        'ticks': str(pacer.ticks),
+        'overruns': str(pacer.missed),
+        'slip': f'{pacer.slip:.6f}',
+        'real_time_factor': f'{factor:.6f}',
+    }
+    for name, histogram in (('lateness', pacer.lateness), ('execution', pacer.execution)):
+        values[f'{name}_p50'] = f'{histogram.percentile(50.0) / 1e3:.1f}'
+        values[f'{name}_p99'] = f'{histogram.percentile(99.0) / 1e3:.1f}'
+        values[f'{name}_max'] = f'{histogram.maximum / 1e3:.1f}'
+    values.update(setup)
+    if pacer.halted:
+        return Status('Real time', ERROR, 'halted after a missed tick', values)
+    if missed_recently:
+        return Status('Real time', WARN, f'{pacer.missed} ticks missed in all', values)
+    return Status('Real time', OK, 'on time', values)
+
+
+def command(
+    desk: CommandDesk, setpoint: Setpoint, on_timeout: str, rejected_recently: bool
+) -> Status:
+    """Return what became of the command messages."""
+    spool_1, spool_2, load_force = setpoint.sample()
+    values = {
+        'accepted': str(desk.accepted),
+        'clamped': str(desk.clamped),
+        'rejected': str(desk.rejections),
+        'without_command': str(desk.without_command),
+        'last_rejection': desk.last_rejection,
+        'silence': f'{setpoint.silence:.3f}',
+        'spool_1': repr(spool_1), 'spool_2': repr(spool_2), 'load_force': repr(load_force),
+    }
+    values.update(
+        {f'rejected: {reason}': str(count) for reason, count in list(desk.rejected.items())})
+    if rejected_recently:
+        return Status('Command', WARN, f'message dropped: {desk.last_rejection}', values)
+    if setpoint.timed_out:
+        return Status(
+            'Command', WARN,
+            f'no command for {setpoint.silence:.1f} s: {on_timeout}', values)
+    return Status('Command', OK, 'commands are obeyed', values)
+
+
+def recorder(recorder: Recorder) -> Status:
+    """Return how the recording goes."""
+    statistics = recorder.statistics
+    if statistics is None:
+        last = {'last_path': str(recorder.path)} if recorder.path else {}
+        return Status('Recorder', OK, 'not recording', last)
+    dropped = sum(statistics.dropped.values())
+    values = {
+        'path': str(recorder.path),
+        'written': str(sum(statistics.written.values())),
+        'dropped': str(dropped),
+        'waiting_bytes': str(statistics.waiting_bytes),
+        'most_waiting_bytes': str(statistics.most_waiting_bytes),
+    }
+    if recorder.error:
+        return Status('Recorder', ERROR, recorder.error, values)
+    if dropped:
+        return Status('Recorder', WARN, f'{dropped} messages dropped', values)
+    return Status('Recorder', OK, f'recording to {recorder.path}', values)
+
+
+def faults() -> Status:
+    """Return the faults at work: without `fault.enabled` there can be none."""
+    return Status('Faults', OK, 'no faults', {'enabled': 'false'})
+
+
+def idle(state: str) -> list[Status]:
+    """Return what stands for the parts that an unconfigured node does not have."""
+    return [
+        Status('Real time', OK, f'{state}: no ticks'),
+        Status('Command', OK, f'{state}: commands are ignored'),
+        Status('Recorder', OK, 'not recording'),
+        faults(),
+    ]
