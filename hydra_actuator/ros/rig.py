@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+What a configured node has: actuator, plant, topics, recording; made whole, taken apart whole.
+
+    commands -> Inbox -> Setpoint -> Plant (solver thread) -> Ring -> Outputs -> topics
+                  |                                                      |
+                  +---------------------> Recorder <--------------------+
+"""
+
+from collections.abc import Callable
+import time
+
+from hydra_actuator.actuator import Actuator
+from hydra_actuator.pacer import Pacer
+from hydra_actuator.parameters import Parameters
+from hydra_actuator.recording.messages import parameter_event
+from hydra_actuator.recording.run_data import run_data
+from hydra_actuator.recording.topics import ActuatorTopics
+from hydra_actuator.ros import statuses
+from hydra_actuator.ros.commands import CommandDesk, CommandRules
+from hydra_actuator.ros.diagnostics import Reports
+from hydra_actuator.ros.inbox import Inbox
+from hydra_actuator.ros.outputs import Outputs
+from hydra_actuator.ros.plant import Plant
+from hydra_actuator.ros.publishing import Publishers
+from hydra_actuator.ros.recorder import Recorder
+from hydra_actuator.ros.ring import Ring
+from hydra_actuator.ros.scheduling import lock_memory, prepare_thread
+from hydra_actuator.ros.setpoint import Setpoint
+from hydra_actuator.ros.watch import Watch, Watched
+from rclpy.node import Node
+
+
+class Rig:
+    """
+    A configured actuator, still until `start`.
+
+    on_failure: called in some thread when the plant cannot go on or a thread has died;
+    `failure` then says why.
+    """
+
+    def __init__(
+        self, node: Node, parameters: Parameters, reports: Reports,
+        on_failure: Callable[[], None],
+    ):
+        """Compile, allocate, connect, begin to record; whatever fails leaves nothing behind."""
+        self.parameters = parameters
+        self.paused = False
+        self.failure = ''
+        self.setup = lock_memory(parameters)
+        self._node = node
+        self._reports = reports
+        self._on_failure = on_failure
+        self._missed, self._rejected = statuses.Recently(), statuses.Recently()
+        self.actuator = Actuator(parameters)
+        self._build_plant()
+        self.topics = ActuatorTopics(
+            node.get_fully_qualified_name(), parameters['sections.names'])
+        for attribute, name in reports.topics.items():
+            setattr(self.topics, attribute, name)
+        self._publishers = Publishers(node)
+        self.inbox = Inbox(
+            node, self.desk, self.setpoint, lambda *message: self.recorder.put(*message))
+        try:
+            self._publishers.create(parameters, self.topics)
+            self.inbox.subscribe(self.topics)
+            self._open_recording()
+        except Exception:
+            self._disconnect()
+            raise
+        self._build_outputs()
+        reports.keep = self.recorder.put
+
+    def start(self) -> None:
+        """Begin to tick, with command 0."""
+        self.paused = False
+        self.failure = ''
+        self.setpoint.centre()
+        self.inbox.start()
+        self.outputs.start()
+        self.plant.start()
+
+    def stop(self) -> None:
+        """Stop after the tick, publish what there is, then be silent; the state stays."""
+        self.plant.stop()
+        self.inbox.stop()
+        self.outputs.stop()
+
+    def pause(self) -> None:
+        """Stop ticking; commands are still taken, for `step`."""
+        self.paused = True
+        self.plant.stop()
+        self.outputs.stop()
+
+    def resume(self) -> None:
+        """Tick again after a pause, with command 0."""
+        self.paused = False
+        self.setpoint.centre()
+        self.outputs.start()
+        self.plant.start()
+
+    def step(self) -> bool:
+        """Run one period and publish it, paused only; False if the solver failed."""
+        done = self.plant.step()
+        self.outputs.take()
+        if not done:
+            self._fail(self.plant.failure)
+        return done
+
+    def reset(self) -> bool:
+        """Return to the initial state; False if the plant did not get round to it."""
+        done = self.plant.reset()
+        if self.paused:
+            self.outputs.take()
+        return done
+
+    def record(self) -> None:
+        """Begin a recording, complete from the next tick on; raises RecordingError."""
+        self.recorder.open()
+        self.outputs.forget_inputs()
+
+    def change(self, changes: dict[str, object]) -> None:
+        """Take live parameters, all between the same two ticks, and record that they changed."""
+        self.parameters = new = self.parameters.replace(changes)
+        rules = CommandRules.of(new)
+        encoder = self.outputs.encoder_for(_joint_names(new))
+
+        def apply() -> None:
+            self.desk.rules = rules
+            self.setpoint.set_timeout(new['command.timeout'], new['command.on_timeout'])
+            self.outputs.encoder = encoder
+            self.plant.supply.pressure = new['supply.pressure']
+
+        self.plant.order(apply)
+        now = time.time_ns()
+        table = new.table
+        data = parameter_event(now, self._node.get_fully_qualified_name(), [
+            (name, table[name].type, new[name]) for name in changes])
+        self.recorder.put(self.topics.parameter_events, now, now, data)
+
+    def close(self) -> bool:
+        """Stop, end the recording, give up all topics; False if the recording is incomplete."""
+        self.stop()
+        complete = self.recorder.close()
+        self._reports.keep = lambda *message: None
+        self._disconnect()
+        return complete
+
+    def statuses(self) -> list[statuses.Status]:
+        """Return what diagnostics say, but for the state of the solver."""
+        return [
+            statuses.real_time(
+                self.pacer, self.actuator.period, self._missed.grew(self.pacer.missed),
+                self.setup),
+            statuses.command(
+                self.desk, self.setpoint, self.parameters['command.on_timeout'],
+                self._rejected.grew(self.desk.rejections)),
+            statuses.recorder(self.recorder),
+            statuses.faults(),
+        ]
+
+    def _build_plant(self) -> None:
+        p, actuator = self.parameters, self.actuator
+        self.pacer = Pacer(
+            p['timing.period'] / p['timing.speed'], p['timing.overrun_policy'],
+            p['timing.max_burst'])
+        self.desk = CommandDesk(CommandRules.of(p))
+        self.setpoint = Setpoint(p['command.timeout'], p['command.on_timeout'])
+        self._ring = Ring(actuator.channels.width, len(actuator.field_labels))
+        field = p['recording.enabled'] or p['publish.field']
+        self.plant = Plant(
+            actuator, self.pacer, self.setpoint, self._ring,
+            p['recording.field_rate'] if field else 0.0)
+        self.plant.prepare_thread = lambda: self.setup.update(prepare_thread(p))
+        self.plant.on_failure = lambda: self._fail(self.plant.failure)
+
+    def _build_outputs(self) -> None:
+        self.outputs = Outputs(
+            self._ring, self.topics, self.actuator.channels, self._publishers.publish,
+            self.recorder.put_batch)
+        self.outputs.set_rates(self.parameters)
+        self.outputs.encoder = self.outputs.encoder_for(_joint_names(self.parameters))
+        self.outputs.on_error = lambda error: self._fail(f'publishing: {error!r}')
+        self.outputs.after_batch = Watch(self._reports.event, self._watched()).look
+
+    def _watched(self) -> list[Watched]:
+        """Return the counts that become events."""
+        warn = statuses.WARN
+        return [
+            Watched('Real time', warn, 'ticks missed', lambda: self.pacer.missed),
+            Watched('Real time', warn, 'ticks given up as slip', lambda: self.pacer.slipped),
+            Watched('Real time', warn, 'ticks not published', lambda: self._ring.lost),
+            Watched('Command', warn, 'messages dropped', lambda: self.desk.rejections),
+            Watched('Command', warn, 'silence', lambda: self.setpoint.timeouts),
+            Watched('Solver', warn, 'end stop hit', lambda: self.actuator.stop_hits),
+        ]
+
+    def _open_recording(self) -> None:
+        self.recorder = Recorder(
+            self._node.get_fully_qualified_name(), self.parameters,
+            self.topics.all(), self._run_data())
+        if self.parameters['recording.enabled']:
+            self.recorder.open()
+
+    def _run_data(self) -> dict[str, str]:
+        actuator = self.actuator
+        return run_data(
+            'node', self.parameters.as_yaml(), actuator.section_positions,
+            actuator.field_positions, actuator.field_labels)
+
+    def _disconnect(self) -> None:
+        self.inbox.destroy()
+        self._publishers.destroy()
+
+    def _fail(self, reason: str) -> None:
+        self.failure = self.failure or reason
+        self._on_failure()
+
+
+def _joint_names(parameters: Parameters) -> tuple[str, ...]:
+    return (parameters['command.piston_joint'], *CommandRules.of(parameters).valve_joints)
