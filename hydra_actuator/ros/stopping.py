@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+SIGINT and SIGTERM from the first moment on, before anything heavy is imported.
+
+The signals are blocked and the main thread waits for them; the work goes on in another thread.
+So there is no handler that could run in the middle of something, none that waits for the end of
+a long call, and none that rclpy or numba could replace.
+"""
+
+import signal
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+
+def take_signals() -> None:
+    """Block the signals in this thread and in those it starts; they wait to be collected."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+
+
+def signal_within(seconds: float) -> bool:
+    """Wait for a signal for at most so long; tell whether one came."""
+    return signal.sigtimedwait(SIGNALS, seconds) is not None
