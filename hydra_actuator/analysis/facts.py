@@ -31,13 +31,15 @@ def run_facts(series: Series) -> Rows:
         rows.append((f'messages on {command.topic}', str(len(command.time))))
     if series.field is not None:
         rows.append(('field', f'{len(series.field.time)} frames of {len(series.field.positions)} '
-                     f'nodes, {1 / series.field.interval:.4g} Hz'))
+                     f'nodes, {1 / series.field.interval:.6g} Hz'))
     rows.append(('written by', series.source or 'unknown'))
     return rows + [(f'version of {name}', str(text)) for name, text in series.versions.items()]
 
 
 def real_time_facts(series: Series) -> Rows:
     """Return real-time statistics over the whole run as (what, value with unit)."""
+    if series.source == 'simulate':
+        return []
     rows: Rows = []
     reports = timing.real_time_reports(series)
     if reports:
@@ -48,7 +50,7 @@ def real_time_facts(series: Series) -> Rows:
         missing = int(np.sum(np.maximum(np.rint(steps.deviation / steps.period), 0)))
         rows += [('greatest deviation of a stamp step', f'{worst:.4g} us'),
                  ('missing ticks between stamps', str(missing))]
-    if len(series.send_delay) and series.source != 'simulate':
+    if len(series.send_delay):
         p50, p99, top = np.percentile(series.send_delay, [50, 99, 100]) * MICRO
         rows.append(('sending after the stamp, p50 / p99 / max',
                      f'{p50:.0f} / {p99:.0f} / {top:.0f} us'))

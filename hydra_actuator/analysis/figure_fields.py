@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Pressure and velocity over streamline and time: surfaces, maps in which waves are lines, ranges.
+Pressure and velocity over streamline and time: surfaces, and maps in which waves are lines.
 
 In a map x runs from pump to tank and time upwards: a wave is a line of slope 1/c, a moving
 piston the line between the two chambers.
@@ -8,13 +8,13 @@ piston the line between the two chambers.
 
 from hydra_actuator.analysis import streamline
 from hydra_actuator.analysis.decimation import bucket_extremes
-from hydra_actuator.analysis.figure import Figure, MEGAPASCAL, MILLI, rows_layout
-from hydra_actuator.analysis.palette import BLUE, ORANGE, PRESSURE_SCALE, VELOCITY_SCALE
+from hydra_actuator.analysis.figure import Figure, MEGAPASCAL, MILLI
+from hydra_actuator.analysis.palette import PRESSURE_SCALE, VELOCITY_SCALE
 from hydra_actuator.analysis.series import Field, Series
 from hydra_actuator.analysis.window import Window
 import numpy as np
 
-SURFACE_FRAMES, MAP_FRAMES, COLUMNS = 160, 420, 360
+SURFACE_FRAMES, MAP_FRAMES, WHOLE_RUN_ROWS, COLUMNS = 240, 420, 210, 360
 
 QUANTITIES = {
     'pressure': ('pressure', 'MPa abs', MEGAPASCAL),
@@ -42,7 +42,7 @@ def surface(series: Series, field: Field, shown: Window, quantity: str) -> Figur
     trace = {
         'type': 'surface', 'name': name, 'x': streamline.node_positions(part, piston),
         'y': np.tile(time[:, None], (1, values.shape[1])), 'z': values,
-        'colorbar': _bar(name, unit), 'connectgaps': True,
+        'showscale': False,
         'hovertemplate': f'x %{{x:.3f}} m<br>%{{y:.2f}} ms<br>%{{z:.3f}} {unit}<extra></extra>',
         'lighting': {'ambient': 0.75, 'diffuse': 0.5, 'specular': 0.1, 'roughness': 0.9},
         'contours': {'x': {'highlight': False}, 'z': {'highlight': False}},
@@ -50,8 +50,7 @@ def surface(series: Series, field: Field, shown: Window, quantity: str) -> Figur
     }
     scene = {
         'aspectmode': 'manual', 'aspectratio': {'x': 1.5, 'y': 1.2, 'z': 0.75},
-        'camera': {'eye': {'x': 1.35, 'y': -1.95, 'z': 0.9}, 'center': {'x': 0.08, 'z': -0.1}},
-        'domain': {'x': [0.0, 0.94]},
+        'camera': {'eye': {'x': 1.25, 'y': -1.82, 'z': 0.9}, 'center': {'x': -0.03, 'z': -0.13}},
         'xaxis': {'title': {'text': 'x: pump to tank'}, 'tickvals': [x for x, _ in ends],
                   'ticktext': [letters for _, letters in ends]},
         'yaxis': {'title': {'text': 'time [ms]'}},
@@ -59,23 +58,34 @@ def surface(series: Series, field: Field, shown: Window, quantity: str) -> Figur
     }
     return Figure(
         f'surface_{quantity}', f'{name.capitalize()} over streamline and time',
-        f'{_span(shown)}, from {_origin(part)}. Drag to turn, double-click to reset.',
-        [trace], {'scene': scene}, height=520, wide=False,
+        f'{_span(shown)}, from {origin(part)}. Drag to turn, double-click to reset.',
+        [trace], {'scene': scene}, height=480, wide=False,
     )
 
 
-def wave_map(series: Series, field: Field, shown: Window, quantity: str) -> Figure:
-    """Return the x-t map of 'pressure' or 'velocity' in a window, with the piston's path."""
+def wave_map(series: Series, field: Field, shown: Window, quantity: str,
+             waves: bool = False) -> Figure:
+    """
+    Return the x-t map of 'pressure' or 'velocity' in a window, with the piston's path.
+
+    Two views: the quantity itself, and its difference from the window's mean at each place, in
+    which waves stand out; `waves` shows the second one first.
+    """
     name, unit, scale = QUANTITIES[quantity]
     part = thinned(field.between(shown.start, shown.end), MAP_FRAMES)
-    piston = np.interp(part.time, series.time, series.position)
-    x = streamline.node_positions(part, piston)
+    x = streamline.node_positions(part, np.interp(part.time, series.time, series.position))
     grid = np.linspace(field.positions.min(), field.positions.max(), COLUMNS)
     values = streamline.on_even_grid(
         x, streamline.gapless(part, getattr(part, quantity)), grid,
     ) * scale
     time = (part.time - shown.start) * MILLI
-    traces = [_heatmap(grid, time, values, quantity)]
+    itself = _heatmap(grid, time, values, quantity)
+    difference = _heatmap(grid, time, values - values.mean(axis=0), 'velocity')
+    difference['hovertemplate'] = itself['hovertemplate'].replace('}<', '} from the mean<')
+    difference['colorbar'] = itself['colorbar']
+    itself['visible'], difference['visible'] = not waves, waves
+    traces, layout = [itself, difference], _map_layout(field, time, 'time [ms]')
+    layout['updatemenus'] = [_choice([f'{name} itself', 'less its mean'], int(waves))]
     if field.faces is not None:
         traces.append({
             'type': 'scatter', 'mode': 'lines', 'name': 'piston', 'x': x[:, field.faces[0]],
@@ -85,15 +95,15 @@ def wave_map(series: Series, field: Field, shown: Window, quantity: str) -> Figu
         })
     return Figure(
         f'map_{quantity}', f'{name.capitalize()}: x-t map',
-        f'{_span(shown)}, from {_origin(part)}. Dotted: the piston.',
-        traces, _map_layout(field, time, 'time [ms]'), height=520, wide=False,
+        f'{_span(shown)}, from {origin(part)}. Dotted: the piston.',
+        traces, layout, height=520, wide=False,
     )
 
 
-def whole_run_map(field: Field, quantity: str) -> Figure:
+def whole_run_map(field: Field, quantity: str, buckets: int = WHOLE_RUN_ROWS) -> Figure:
     """Return the map of the whole run: the highest or the lowest value of every bucket of time."""
-    name, unit, scale = QUANTITIES[quantity]
-    starts, lowest, highest = bucket_extremes(getattr(field, quantity), MAP_FRAMES // 2)
+    name, _, scale = QUANTITIES[quantity]
+    starts, lowest, highest = bucket_extremes(getattr(field, quantity), buckets)
     grid = np.linspace(field.positions.min(), field.positions.max(), COLUMNS)
     maps = [
         streamline.extremes_on_even_grid(field, part, grid, highest=high) * scale
@@ -103,64 +113,14 @@ def whole_run_map(field: Field, quantity: str) -> Figure:
     for k, trace in enumerate(traces):
         trace.update(_shared_range(maps, quantity), visible=k == 0)
     layout = _map_layout(field, field.time[starts], 'time [s]')
-    layout['updatemenus'] = [{
-        'type': 'buttons', 'direction': 'right', 'x': 0, 'xanchor': 'left', 'y': 1.02,
-        'yanchor': 'bottom', 'showactive': True, 'buttons': [
-            {'label': f'{word} in each row', 'method': 'restyle',
-             'args': [{'visible': [word == 'highest', word == 'lowest']}]}
-            for word in ('highest', 'lowest')
-        ],
-    }]
+    layout['updatemenus'] = [_choice(['highest in each row', 'lowest in each row'], 0)]
     seconds = (field.time[-1] - field.time[0]) / max(len(starts), 1)
     return Figure(
         f'whole_{quantity}', f'{name.capitalize()} over the whole run',
         f'Each row of the map holds {seconds * MILLI:.3g} ms of {field.source} and shows the '
         'extreme in it: no peak is averaged away.',
-        traces, layout, height=380, wide=False,
+        traces, layout, height=400, wide=False,
     )
-
-
-def ranges(field: Field, stations: Field | None) -> Figure:
-    """Return the lowest and the highest pressure and velocity of the run along the streamline."""
-    grid = np.linspace(field.positions.min(), field.positions.max(), 2 * COLUMNS)
-    traces = []
-    for row, (quantity, (name, unit, scale)) in enumerate(QUANTITIES.items()):
-        panel = {'xaxis': 'x', 'yaxis': f'y{row + 1}' if row else 'y', 'showlegend': row == 0}
-        for word, style in _RANGE_STYLES.items():
-            traces.append({
-                'type': 'scatter', 'mode': 'lines', 'name': f'{word} of {field.source}',
-                'x': np.asarray(grid, np.float32), 'line': style, 'legendgroup': word,
-                'y': np.asarray(_extreme(field, quantity, word, grid) * scale, np.float32),
-                'hovertemplate': f'x %{{x:.3f}} m: %{{y:.3f}} {unit}<extra>{word} {name}</extra>',
-                **panel,
-            })
-            if stations is not None:
-                choose = np.fmax if word == 'highest' else np.fmin
-                traces.append({
-                    'type': 'scatter', 'mode': 'markers', 'name': f'{word} of {stations.source}',
-                    'x': np.asarray(stations.positions, np.float32), 'marker': style,
-                    'cliponaxis': False,
-                    'y': np.asarray(choose.reduce(getattr(stations, quantity)) * scale,
-                                    np.float32), 'legendgroup': word, **panel,
-                })
-    layout = rows_layout(['pressure [MPa abs]', 'velocity [m/s]'])
-    layout['xaxis'].update(_x_axis(streamline.boundaries(field)))
-    return Figure(
-        'ranges', 'Range along the streamline',
-        f'Extremes of the whole run, from {_origin(field)}; dots: the stations, which are '
-        'recorded more often. Those of the piston faces stand at mid-stroke.',
-        traces, layout, height=480,
-    )
-
-
-_RANGE_STYLES = {'highest': {'color': ORANGE}, 'lowest': {'color': BLUE}}
-
-
-def _extreme(field: Field, quantity: str, word: str, grid: np.ndarray) -> np.ndarray:
-    """Return the highest or lowest value of the run on a grid of x [m]."""
-    _, lowest, highest = bucket_extremes(getattr(field, quantity), 1)
-    part = highest if word == 'highest' else lowest
-    return streamline.extremes_on_even_grid(field, part, grid, highest=word == 'highest')[0]
 
 
 def _bar(name: str, unit: str) -> dict:
@@ -198,7 +158,20 @@ def _heatmap(grid: np.ndarray, time: np.ndarray, values: np.ndarray, quantity: s
     }
 
 
-def _x_axis(ends: list[tuple[float, str]]) -> dict:
+def _choice(labels: list[str], active: int) -> dict:
+    """Return buttons that show one of the first traces and hide the others."""
+    first = list(range(len(labels)))
+    return {
+        'type': 'buttons', 'direction': 'right', 'x': 0, 'xanchor': 'left', 'y': 1.02,
+        'yanchor': 'bottom', 'showactive': True, 'active': active, 'buttons': [
+            {'label': label, 'method': 'restyle',
+             'args': [{'visible': [k == chosen for k in first]}, first]}
+            for chosen, label in enumerate(labels)
+        ],
+    }
+
+
+def x_axis(ends: list[tuple[float, str]]) -> dict:
     """Return the x axis of a map: station letters and metres at the ends of the domains."""
     return {
         'title': {'text': 'x: pump to tank [m]'},
@@ -211,7 +184,7 @@ def _x_axis(ends: list[tuple[float, str]]) -> dict:
 def _map_layout(field: Field, time: np.ndarray, time_title: str) -> dict:
     """Return the layout of a map."""
     return {
-        'xaxis': {**_x_axis(streamline.boundaries(field)), 'showgrid': False},
+        'xaxis': {**x_axis(streamline.boundaries(field)), 'showgrid': False},
         'yaxis': {'title': {'text': time_title}, 'range': [float(time[0]), float(time[-1])],
                   'showgrid': False},
     }
@@ -224,7 +197,7 @@ def _span(shown: Window) -> str:
     return f'{length:.3g} ms{periods}, from t = {shown.start:.4f} s'
 
 
-def _origin(field: Field) -> str:
+def origin(field: Field) -> str:
     """Return where the frames come from and how dense they are, in words."""
-    rate = f' at {1 / field.interval:.4g} Hz' if np.isfinite(field.interval) else ''
+    rate = f' at {1 / field.interval:.6g} Hz' if np.isfinite(field.interval) else ''
     return f'{field.source}{rate}'

@@ -19,8 +19,7 @@ def real_time(series: Series) -> Figure:
     reports = timing.real_time_reports(series)
     if not reports:
         return Figure.absent(
-            'real_time', title, 'the recording has no real-time statistics of a node '
-            '(offline runs have none)',
+            'real_time', title, 'the recording has no real-time statistics of a node',
         )
     time = np.array([report.time for report in reports])
     values = timing.numeric_values(reports)
@@ -49,8 +48,8 @@ def real_time(series: Series) -> Figure:
 def sending(series: Series) -> Figure:
     """Return how long after its stamp each state left: percentiles over the run."""
     title = 'Real time: sending the states'
-    if not len(series.send_delay) or series.source == 'simulate':
-        return Figure.absent('sending', title, 'an offline run sends nothing')
+    if not len(series.send_delay):
+        return Figure.absent('sending', title, 'the recording has no times of sending')
     time, lines = timing.percentiles_over_time(
         series.time, series.send_delay * MICRO, min(BUCKETS, max(len(series.time) // 100, 1)),
     )

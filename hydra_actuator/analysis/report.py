@@ -8,11 +8,24 @@ Shows what was recorded and says what was not; computes no physics anew.
 import os
 from pathlib import Path
 
-from hydra_actuator.analysis import facts, figure_fields, figure_lines, figure_timing, streamline
+from hydra_actuator.analysis import (
+    facts,
+    figure_fields,
+    figure_lines,
+    figure_ranges,
+    figure_timing,
+    streamline,
+)
 from hydra_actuator.analysis.figure import Figure
 from hydra_actuator.analysis.page import GENERATOR, page
 from hydra_actuator.analysis.series import Series
-from hydra_actuator.analysis.window import best_field, wave_window, Window, window_of
+from hydra_actuator.analysis.window import (
+    best_field,
+    wave_window,
+    whole_run_buckets,
+    Window,
+    window_of,
+)
 from hydra_actuator.errors import InputError
 
 
@@ -66,10 +79,16 @@ def figures(series: Series) -> list[Figure]:
         *field_figures(series, shown),
         figure_lines.sections(series, shown),
         figure_lines.piston(series, shown),
-        figure_timing.real_time(series),
-        figure_timing.sending(series),
-        figure_timing.stamps(series),
+        *timing_figures(series),
     ]
+
+
+def timing_figures(series: Series) -> list[Figure]:
+    """Return the figures about real time; an offline run has none."""
+    if series.source == 'simulate':
+        return [Figure.absent('real_time', 'Real time', 'an offline run keeps no real time')]
+    return [figure_timing.real_time(series), figure_timing.sending(series),
+            figure_timing.stamps(series)]
 
 
 def field_figures(series: Series, shown: Window) -> list[Figure]:
@@ -81,13 +100,18 @@ def field_figures(series: Series, shown: Window) -> list[Figure]:
                               'neither the field nor enough stations were recorded')]
     in_waves = full and wave_window(series, full, shown)
     mapped, window = (full, in_waves) if in_waves else (drawn, shown)
-    result = [figure_fields.surface(series, drawn, shown, q) for q in figure_fields.QUANTITIES]
-    result += [figure_fields.wave_map(series, mapped, window, q) for q in figure_fields.QUANTITIES]
+    # A periodic run is told by its periods; another one by the waves, where they are resolved.
+    over = shown if shown.frequency else window
+    quantities = tuple(figure_fields.QUANTITIES)
+    result = [figure_fields.surface(series, drawn, over, q) for q in quantities]
+    result += [figure_fields.wave_map(series, mapped, window, q, bool(in_waves))
+               for q in quantities]
     if full is None:
         result.append(Figure.absent('whole', 'The whole run', 'the field was not recorded'))
         return result
-    result += [figure_fields.whole_run_map(full, q) for q in figure_fields.QUANTITIES]
-    return [*result, figure_fields.ranges(full, stations)]
+    buckets = whole_run_buckets(full, shown, figure_fields.WHOLE_RUN_ROWS)
+    result += [figure_fields.whole_run_map(full, q, buckets) for q in quantities]
+    return [*result, figure_ranges.ranges(full, stations)]
 
 
 def _subtitle(series: Series) -> str:
@@ -103,11 +127,11 @@ def _tables(series: Series) -> list[tuple]:
     """Return the tables: facts, real time, parameters."""
     real_time = facts.real_time_facts(series)
     changed = facts.changed_parameters(series)
-    return [
-        ('The run', '', facts.run_facts(series)),
-        ('Real time', '' if real_time else 'Not here: no statistics were recorded.', real_time),
-        ('Parameters that differ from the defaults', _about_parameters(series, changed), changed),
-    ]
+    tables = [('The run', '', facts.run_facts(series))]
+    if real_time:
+        tables.append(('Real time over the whole run', '', real_time))
+    title = 'Parameters that differ from the defaults'
+    return [*tables, (title, _about_parameters(series, changed), changed)]
 
 
 def _about_parameters(series: Series, changed: list) -> str:

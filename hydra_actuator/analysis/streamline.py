@@ -90,7 +90,8 @@ def extremes_on_even_grid(field: Field, extremes: np.ndarray, grid: np.ndarray,
     Return bucket extremes (buckets, nodes) on an even grid of x [m].
 
     Where the piston passed within a bucket, both chambers have covered x: the greater extreme
-    of the two. The faces themselves move within a bucket and are left out.
+    of the two. The faces themselves move within a bucket and are left out; what no node covered
+    is linear between those beside it.
     """
     choose = np.fmax if highest else np.fmin
     labels = np.array(field.labels)
@@ -104,6 +105,10 @@ def extremes_on_even_grid(field: Field, extremes: np.ndarray, grid: np.ndarray,
         for row, extreme in zip(result, extremes):
             spread = np.interp(grid[inside], place, extreme[nodes])
             row[inside] = choose(row[inside], spread)
+    for row in result:
+        known = np.isfinite(row)
+        if known.any():
+            row[~known] = np.interp(grid[~known], grid[known], row[known])
     return result
 
 

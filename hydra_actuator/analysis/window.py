@@ -13,10 +13,12 @@ from hydra_actuator.analysis.series import Field, Series
 import numpy as np
 
 PERIODS_SHOWN = 3
+FEWEST_PERIODS = 6            # in the record of a periodic run
 LONGEST_WINDOW = 0.1          # [s] of a run that is not periodic
 PURE = 0.6                    # share of the power in the dominant line of a periodic run
 FRAMES_PER_PERIOD = 16        # below this a field looks torn between frames
 TRAVELS_SHOWN = 8             # travel times through all domains in the wave window
+STEEP = 0.7                   # a change of this share of the largest starts the wave window
 USUAL_WAVE_SPEED = 1300.0     # [m/s] where the recording has no parameters
 
 
@@ -33,7 +35,7 @@ def dominant_frequency(time: np.ndarray, values: np.ndarray) -> float:
     """
     Return the frequency [Hz] of evenly sampled values if one line carries most power, else 0.
 
-    Slower than three periods in the record is drift and does not count. Hann window, peak
+    Slower than six periods in the record is drift and does not count. Hann window, peak
     placed by its two greatest bins.
     """
     if len(values) < 32 or not np.all(np.isfinite(values)) or np.ptp(values) == 0:
@@ -42,10 +44,10 @@ def dominant_frequency(time: np.ndarray, values: np.ndarray) -> float:
     # A few hundred thousand samples are plenty and keep the transform short.
     values = values[-2**18:] - np.mean(values[-2**18:])
     power = np.abs(np.fft.rfft(values * np.hanning(len(values)))) ** 2
-    power[:PERIODS_SHOWN] = 0.0
+    power[:FEWEST_PERIODS] = 0.0
     peak = int(power.argmax())
     share = power[max(peak - 2, 0):peak + 3].sum() / max(power.sum(), 1e-300)
-    if peak < PERIODS_SHOWN or peak + 1 >= len(power) or share < PURE:
+    if peak < FEWEST_PERIODS or peak + 1 >= len(power) or share < PURE:
         return 0.0
     low, mid, high = np.sqrt(power[peak - 1:peak + 2])
     ratio = max(low, high) / mid
@@ -105,9 +107,17 @@ def best_field(full: Field | None, stations: Field | None, shown: Window) -> Fie
     return full if enough or full.interval <= 1.5 * stations.interval else stations
 
 
+def whole_run_buckets(field: Field, shown: Window, most: int) -> int:
+    """Return in how many buckets to show a whole run: of whole periods, where it has some."""
+    periods = int((field.time[-1] - field.time[0]) * shown.frequency)
+    if periods < 2:
+        return most
+    return max(periods // -(-periods // most), 1)
+
+
 def _steepest(field: Field) -> float:
-    """Return the time [s] of the largest pressure change between two frames."""
+    """Return the time [s] of the first of the largest pressure changes between two frames."""
     if len(field.time) < 2:
         return float(field.time[0]) if len(field.time) else 0.0
     change = np.nan_to_num(np.abs(np.diff(field.pressure, axis=0))).max(axis=1)
-    return float(field.time[int(change.argmax())])
+    return float(field.time[int(np.argmax(change >= STEEP * change.max()))])

@@ -108,3 +108,22 @@ def test_only_changed_parameters_are_listed_with_unit_and_default(run):
     ((name, text),) = facts.changed_parameters(run)
     assert name == 'tank.pressure'
     assert text == '2400000.0 Pa (default 2500000.0)'
+
+
+def test_the_difference_from_the_mean_has_no_mean(run):
+    figure = figure_fields.wave_map(run, run.field, window_of(run), 'pressure', waves=True)
+    itself, difference = figure.traces[:2]
+    assert (itself['visible'], difference['visible']) == (False, True)
+    np.testing.assert_allclose(difference['z'].mean(axis=0), 0, atol=1e-12)
+    np.testing.assert_allclose(np.ptp(difference['z'], axis=0), np.ptp(itself['z'], axis=0))
+
+
+def test_a_row_of_the_whole_run_holds_whole_periods(run):
+    figures = {figure.key: figure for figure in report.figures(run)}
+    # One period of 20 ms each: every row of a steady motion looks the same.
+    assert len(figures['whole_pressure'].traces[0]['y']) == 50
+
+
+def test_an_offline_run_has_one_sentence_about_real_time(run):
+    figures = report.timing_figures(replace(run, source='simulate'))
+    assert [figure.missing for figure in figures] == ['an offline run keeps no real time']

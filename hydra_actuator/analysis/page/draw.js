@@ -80,7 +80,7 @@
     }
     // A finger on a picture scrolls the page.
     if (narrow() && !layout.scene) layout.dragmode = false;
-    if (narrow() && layout.scene) layout.scene.camera.eye = { x: 1.6, y: -2.3, z: 1.1 };
+    if (narrow() && layout.scene) layout.scene.camera.eye = { x: 1.5, y: -2.1, z: 1.0 };
     return layout;
   }
 
@@ -101,12 +101,9 @@
   async function draw(figure) {
     const plot = document.getElementById(figure.key);
     const layout = layoutOf(figure);
-    const traces = resolve(figure.traces);
-    // On a phone the axis tells the values; the colour bar would take the room.
-    if (narrow()) for (const trace of traces) if (trace.type === 'surface') trace.showscale = false;
     plot.style.minHeight = `${layout.height}px`;
     try {
-      await Plotly.newPlot(plot, traces, layout, {
+      await Plotly.newPlot(plot, resolve(figure.traces), layout, {
         responsive: true, displaylogo: false, scrollZoom: false,
         modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d', 'hoverClosest3d', 'resetCameraLastSave3d'],
         displayModeBar: narrow() ? false : 'hover', doubleClickDelay: 400,
