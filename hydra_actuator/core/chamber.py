@@ -12,7 +12,7 @@ node to face at arrival. Whole nodes appear and vanish as s leaves [0, dx).
 """
 
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.line import fill_ghosts, interpolate
+from hydra_actuator.core.line import interpolate
 
 
 @formula
@@ -20,47 +20,53 @@ def extend_to_face(values, last_node, cells, face_value, fraction):
     """
     Fill two nodes beyond the last whole node of a chamber, using the face where it is far enough.
 
-    fraction s/dx [-]: above one half the polynomial runs through the face (an ill-placed point
-    close to the node would amplify rounding); below, through whole nodes alone.
+    fraction s/dx [-]: from one half on the polynomial runs through the face and up to three
+    whole nodes; below (a point close to the node would amplify rounding) through whole nodes
+    alone. Both ghosts lie on the same polynomial.
     """
-    fill_ghosts(values, last_node, -1, cells)
-    if fraction < 0.5 or cells < 2:
-        return
     here = values[last_node]
-    d_1 = face_value - here
     d_2 = here - values[last_node - 1]
-    d_3 = values[last_node - 1] - values[last_node - 2]
-    f = fraction
-    # divided differences over offsets -2, -1, 0, f, evaluated at 1 and 2
-    first = d_1 / f
-    second = (first - d_2) / (f + 1.0)
-    third = (second - 0.5 * (d_2 - d_3)) / (f + 2.0)
-    for k in range(1, 3):
-        t = float(k)
-        values[last_node + k] = here + t * (first + (t - f) * (second + (t + 1.0) * third))
+    d_3, d_4 = d_2, d_2
+    if cells >= 2:
+        d_3 = values[last_node - 1] - values[last_node - 2]
+        d_4 = d_3 + (d_3 - d_2)
+    if cells >= 3:
+        d_4 = values[last_node - 2] - values[last_node - 3]
+    if fraction < 0.5 or cells < 2:
+        curve = d_2 - d_3
+        twist = (d_2 - d_3) - (d_3 - d_4)
+        values[last_node + 1] = here + (d_2 + (curve + twist))
+        values[last_node + 2] = here + (2.0 * d_2 + (3.0 * curve + 4.0 * twist))
+        return
+    # divided differences over the offsets 0, fraction, -1, -2, evaluated at 1 and 2
+    first = (face_value - here) / fraction
+    second = (first - d_2) / (fraction + 1.0)
+    third = (second - 0.5 * (d_2 - d_3)) / (fraction + 2.0)
+    gap = 1.0 - fraction
+    values[last_node + 1] = here + (first + gap * (second + 2.0 * third))
+    values[last_node + 2] = here + 2.0 * (first + (gap + 1.0) * (second + 3.0 * third))
 
 
 @formula
-def wave_at_face(state, domain, mesh, third_order, geometry, first_pass):
+def wave_at_face(waves, node, distance, mesh, third_order, guess):
     """
-    Return (W [m/s], theta [cells]) arriving at the moving face.
+    Return (W [m/s], theta [cells]) arriving at the moving face; theta counts from the face.
 
-    geometry: (last whole node, face's distance beyond it at arrival in cells). theta counts from
-    the face; first_pass true takes u at the foot alone.
+    waves: (P, Q); node: the last whole one; distance: of the face beyond it at arrival, in cells;
+    guess: (velocity of the oil at arrival, theta of the pass before) as in `arriving_wave`.
     """
+    wave_p, wave_q = waves
     courant, slope, _ = mesh
-    node, distance = geometry
-    wave_p, wave_q = state.wave_p, state.wave_q
-    end = 2 * domain + 1
     sigma, kappa = courant[node], slope[node]
-    here = 0.5 * (wave_p[node] - wave_q[node])
-    rise = 0.5 * (wave_p[node - 1] - wave_q[node - 1]) - here
-    theta = sigma if first_pass else state.end_theta[end]
-    foot = here + (theta - distance) * rise
-    if first_pass:
-        theta = sigma + kappa * foot
-    else:
-        theta = sigma + 0.5 * kappa * (foot + state.end_velocity[end])
+    arrival, theta = guess
+    # twice the velocity, as the mesh's constants want it
+    here = wave_p[node] - wave_q[node]
+    rise = (wave_p[node - 1] - wave_q[node - 1]) - here
+    if theta != theta:
+        theta = sigma + kappa * (here + (sigma - distance) * rise)
+    if arrival == arrival:
+        foot = here + (theta - distance) * rise
+        theta = sigma + 0.5 * kappa * (foot + 2.0 * arrival)
     wave = interpolate(
         wave_p[node + 1], wave_p[node], wave_p[node - 1], wave_p[node - 2],
         theta - distance, third_order)

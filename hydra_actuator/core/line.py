@@ -21,86 +21,100 @@ node is swept alike. Neglected: variation over the cross-section, frequency-depe
 
 from hydra_actuator.core.compilation import formula
 
-GHOSTS = 2
+# Spare nodes before and after each domain. A moving face may need two.
+GHOSTS_BEFORE, GHOSTS_AFTER = 1, 2
+
+
+@formula
+def cubic(ahead, here, behind, far, third_order):
+    """
+    Return (b1, b2, b3) of here + theta (b1 + theta (b2 + theta b3)).
+
+    The polynomial through offsets -1 (ahead), 0 (here), 1 (behind) and 2 (far), which count cells
+    against the direction of travel; third_order 1 is the cubic, 0 the line through 0 and 1.
+    """
+    slope = behind - here
+    half = 0.5 * third_order
+    second = half * (slope + (ahead - here))
+    third = (third_order * (1.0 / 6.0)) * (far - ahead) - half * slope
+    return slope - second - third, second, third
 
 
 @formula
 def interpolate(ahead, here, behind, far, theta, third_order):
-    """
-    Return the cubic through offsets -1 (ahead), 0 (here), 1, 2 (far), at offset theta.
-
-    Offsets count cells against the direction of travel. third_order 1 is the cubic, 0 linear.
-    """
-    slope = behind - here
-    second = third_order * (0.5 * (slope + (ahead - here)))
-    third = third_order * ((far - ahead) * (1.0 / 6.0) - 0.5 * slope)
-    return here + theta * ((slope - second - third) + theta * (second + theta * third))
+    """Return the value `theta` cells behind `here`; see `cubic`."""
+    b_1, b_2, b_3 = cubic(ahead, here, behind, far, third_order)
+    return here + theta * (b_1 + theta * (b_2 + theta * b_3))
 
 
 @formula
-def sweep(wave_p, wave_q, new_p, new_q, mesh, count, third_order, passes):
+def sweep(waves, new_waves, mesh, third_order, passes):
     """
-    Write P and Q [m/s] one step later into new_p[2:count+2] and new_q[2:count+2].
+    Write P and Q [m/s] one step later into new_waves, all nodes but two at each end.
 
-    mesh: (courant, slope, friction) of every node: c dt/dx [-], dt/dx [s/m], lambda dt/2 [s/m].
+    waves: (P, Q); mesh: (courant, slope, friction) of every node: c dt/dx [-], dt/dx / 2 [s/m],
+    lambda dt / 8 [s/m], the last two for velocities 2 u = P - Q.
     passes: a tuple whose length is the number of passes (so the compiler unrolls them).
     The offsets start at 0 and run forward, which lets the loop vectorise.
     """
+    wave_p, wave_q = waves
+    new_p, new_q = new_waves
     courant, slope, friction = mesh
-    for i in range(count):
-        q_behind, q_here, q_ahead = wave_q[i + 1], wave_q[i + 2], wave_q[i + 3]
-        p_behind, p_here, p_ahead = wave_p[i + 1], wave_p[i + 2], wave_p[i + 3]
-        p_far, q_far = wave_p[i], wave_q[i + 4]
+    for i in range(wave_p.size - 4):
+        p_far, p_behind, p_here, p_ahead = wave_p[i], wave_p[i + 1], wave_p[i + 2], wave_p[i + 3]
+        q_ahead, q_here, q_behind, q_far = wave_q[i + 1], wave_q[i + 2], wave_q[i + 3], wave_q[i + 4]
         sigma, kappa, loss = courant[i + 2], slope[i + 2], friction[i + 2]
-        here = 0.5 * (p_here - q_here)
-        rise_p = 0.5 * (p_behind - q_behind) - here
-        rise_q = 0.5 * (p_ahead - q_ahead) - here
+        a_1, a_2, a_3 = cubic(p_ahead, p_here, p_behind, p_far, third_order)
+        b_1, b_2, b_3 = cubic(q_ahead, q_here, q_behind, q_far, third_order)
+        here = p_here - q_here
+        rise_p = (p_behind - q_ahead) - here
+        rise_q = (p_ahead - q_behind) - here
         foot_p = here + sigma * rise_p
         foot_q = here + sigma * rise_q
         theta_p = sigma + kappa * foot_p
         theta_q = sigma - kappa * foot_q
-        p = interpolate(p_ahead, p_here, p_behind, p_far, theta_p, third_order)
-        q = interpolate(q_behind, q_here, q_ahead, q_far, theta_q, third_order)
-        p -= loss * foot_p * abs(foot_p)
-        q += loss * foot_q * abs(foot_q)
+        p = p_here + theta_p * (a_1 + theta_p * (a_2 + theta_p * a_3))
+        q = q_here + theta_q * (b_1 + theta_q * (b_2 + theta_q * b_3))
+        p -= loss * (foot_p * abs(foot_p))
+        q += loss * (foot_q * abs(foot_q))
         for _ in range(len(passes) - 1):
-            arrival = 0.5 * (p - q)
+            arrival = p - q
+            drag = arrival * abs(arrival)
             foot_p = here + theta_p * rise_p
             foot_q = here + theta_q * rise_q
-            theta_p = sigma + 0.5 * kappa * (foot_p + arrival)
-            theta_q = sigma - 0.5 * kappa * (foot_q + arrival)
-            p = interpolate(p_ahead, p_here, p_behind, p_far, theta_p, third_order)
-            q = interpolate(q_behind, q_here, q_ahead, q_far, theta_q, third_order)
-            p -= 0.5 * loss * (foot_p * abs(foot_p) + arrival * abs(arrival))
-            q += 0.5 * loss * (foot_q * abs(foot_q) + arrival * abs(arrival))
+            theta_p = sigma + (0.5 * kappa) * (foot_p + arrival)
+            theta_q = sigma - (0.5 * kappa) * (foot_q + arrival)
+            p = p_here + theta_p * (a_1 + theta_p * (a_2 + theta_p * a_3))
+            q = q_here + theta_q * (b_1 + theta_q * (b_2 + theta_q * b_3))
+            p -= (0.5 * loss) * (foot_p * abs(foot_p) + drag)
+            q += (0.5 * loss) * (foot_q * abs(foot_q) + drag)
         new_p[i + 2] = p
         new_q[i + 2] = q
 
 
 @formula
-def arriving_wave(outgoing, returning, node, side, mesh, third_order, last_pass):
+def arriving_wave(outgoing, returning, node, side, mesh, third_order, guess):
     """
     Return (W [m/s], theta [-]): the wave that reaches a fixed end, and its foot in cells behind.
 
     outgoing, returning: the arrays of the wave that arrives (P at a right end, side 1; Q at a
-    left) and of the other one. last_pass: (outflow velocity [m/s], theta) of the pass before;
-    a NaN velocity marks the first pass, which uses the foot alone.
+    left) and of the other one. guess: (outflow velocity at arrival [m/s], NaN to use the foot
+    alone; theta of the pass before, NaN in the first).
     """
     courant, slope, friction = mesh
     back = -1 if side == 1 else 1
     sigma, kappa, loss = courant[node], slope[node], friction[node]
-    arrival, theta = last_pass
-    # v = s u is the velocity towards the end, and W = mu + v, whichever the side
-    here = 0.5 * (outgoing[node] - returning[node])
-    rise = 0.5 * (outgoing[node + back] - returning[node + back]) - here
-    if arrival != arrival:
-        foot = here + sigma * rise
-        theta = sigma + kappa * foot
-        drag = foot * abs(foot)
-    else:
-        foot = here + theta * rise
-        theta = sigma + 0.5 * kappa * (foot + arrival)
-        drag = 0.5 * (foot * abs(foot) + arrival * abs(arrival))
+    arrival, theta = guess
+    # twice the velocity towards the end, v = s u, as the mesh's constants want it
+    here = outgoing[node] - returning[node]
+    rise = (outgoing[node + back] - returning[node + back]) - here
+    if theta != theta:
+        theta = sigma + kappa * (here + sigma * rise)
+    foot = here + theta * rise
+    drag = foot * abs(foot)
+    if arrival == arrival:
+        theta = sigma + 0.5 * kappa * (foot + 2.0 * arrival)
+        drag = 0.5 * (drag + 4.0 * arrival * abs(arrival))
     wave = interpolate(
         outgoing[node - back], outgoing[node], outgoing[node + back],
         outgoing[node + 2 * back], theta, third_order)
@@ -108,20 +122,19 @@ def arriving_wave(outgoing, returning, node, side, mesh, third_order, last_pass)
 
 
 @formula
-def fill_ghosts(values, end, inward, cells):
+def fill_ghost(values, end, inward, cells):
     """
-    Continue `values` two nodes beyond the node `end` by the polynomial through the inner nodes.
+    Continue `values` one node beyond the node `end` by the polynomial through the inner nodes.
 
     inward is the step (+1 or -1) towards the inside; the order drops below three cells. Written
     in differences, so that a constant stays constant to the last bit.
     """
-    first = values[end]
-    d_1 = first - values[end + inward]
-    d_2, d_3 = 0.0, 0.0
-    if cells >= 2:
-        d_2 = d_1 - (values[end + inward] - values[end + 2 * inward])
+    first, second = values[end], values[end + inward]
+    slope = first - second
     if cells >= 3:
-        inner = values[end + 2 * inward] - values[end + 3 * inward]
-        d_3 = d_2 - ((values[end + inward] - values[end + 2 * inward]) - inner)
-    values[end - inward] = first + (d_1 + (d_2 + d_3))
-    values[end - 2 * inward] = first + (2.0 * d_1 + (3.0 * d_2 + 4.0 * d_3))
+        third, fourth = values[end + 2 * inward], values[end + 3 * inward]
+        values[end - inward] = first + (3.0 * (slope - (second - third)) + (third - fourth))
+    elif cells == 2:
+        values[end - inward] = first + (2.0 * slope - (second - values[end + 2 * inward]))
+    else:
+        values[end - inward] = first + slope

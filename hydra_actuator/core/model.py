@@ -10,7 +10,7 @@ from its fixed end and a partial one at the face.
 from dataclasses import dataclass
 import math
 
-from hydra_actuator.core.line import GHOSTS
+from hydra_actuator.core.line import GHOSTS_AFTER, GHOSTS_BEFORE
 from hydra_actuator.core.records import (
     JUNCTION,
     Model,
@@ -21,6 +21,9 @@ from hydra_actuator.core.records import (
     VALVE_PARAMETERS,
 )
 import numpy as np
+
+# The sweep leaves out two nodes at each end of the arrays, ghosts included.
+SPARE = 1
 
 
 @dataclass(frozen=True)
@@ -90,11 +93,12 @@ def build_chain(density: float, domains: list[Domain], junctions: list[Junction]
     last = np.empty(count, np.int64)
     for d, domain in enumerate(domains):
         spacing[d], last[d], capacity[d] = _cells(domain, mesh)
-    start = GHOSTS + np.concatenate(
-        ([0], np.cumsum(capacity + 1 + 2 * GHOSTS)[:-1])).astype(np.int64)
-    nodes = int(np.sum(capacity + 1 + 2 * GHOSTS))
+    room = capacity + 1 + GHOSTS_BEFORE + GHOSTS_AFTER
+    start = GHOSTS_BEFORE + SPARE + np.concatenate(([0], np.cumsum(room)[:-1])).astype(np.int64)
+    of_node = np.concatenate((
+        np.zeros(SPARE, np.int64), np.repeat(np.arange(count), room),
+        np.full(SPARE, count - 1)))
     wave_speed = np.array([domain.wave_speed for domain in domains])
-    of_node = np.repeat(np.arange(count), capacity + 1 + 2 * GHOSTS)
     area = np.array([domain.area for domain in domains])
     loss = np.array([domain.loss_coefficient for domain in domains])
     model = Model(
@@ -108,13 +112,13 @@ def build_chain(density: float, domains: list[Domain], junctions: list[Junction]
         area=area, slowness=1.0 / wave_speed, impedance=density * wave_speed / area,
         inverse_area=1.0 / area,
         courant=(wave_speed * mesh.step_time / spacing)[of_node],
-        slope=(mesh.step_time / spacing)[of_node],
-        friction=(0.5 * mesh.step_time * loss)[of_node],
+        slope=(0.5 * mesh.step_time / spacing)[of_node],
+        friction=(0.125 * mesh.step_time * loss)[of_node],
         junctions=_junction_records(junctions),
         valve=records.get('valve', np.zeros(1, VALVE_PARAMETERS)),
         piston=records.get('piston', np.zeros(1, PISTON_PARAMETERS)),
         source=records.get('source', np.zeros(1, SOURCE_PARAMETERS)))
-    state = _empty_state(count, nodes)
+    state = _empty_state(count, len(of_node))
     state.last[:] = last
     state.length[:] = state.old_length[:] = [domain.length for domain in domains]
     for d, domain in enumerate(domains):
@@ -129,7 +133,8 @@ def set_domain(model: Model, state: State, d: int, wave_p, wave_q) -> None:
 
     A moving face takes the values of the last node.
     """
-    nodes = slice(model.start[d] - GHOSTS, model.start[d] + model.capacity[d] + 1 + GHOSTS)
+    nodes = slice(model.start[d] - GHOSTS_BEFORE,
+                  model.start[d] + model.capacity[d] + 1 + GHOSTS_AFTER)
     whole = slice(model.start[d], model.start[d] + state.last[d] + 1)
     for field, wave in ((state.wave_p, wave_p), (state.wave_q, wave_q)):
         field[nodes] = np.asarray(wave).flat[-1]
@@ -141,6 +146,7 @@ def set_domain(model: Model, state: State, d: int, wave_p, wave_q) -> None:
     first = model.start[d]
     state.end_velocity[2 * d] = -0.5 * (state.wave_p[first] - state.wave_q[first])
     state.end_wave[2 * d], state.end_wave[2 * d + 1] = state.wave_q[first], state.wave_p[last]
+    state.end_velocity_before[:] = state.end_velocity
     state.new_p[:], state.new_q[:] = state.wave_p, state.wave_q
 
 
@@ -175,7 +181,7 @@ def _empty_state(domains: int, nodes: int) -> State:
         new_q=np.zeros(nodes), last=np.zeros(domains, np.int64), length=np.zeros(domains),
         old_length=np.zeros(domains), old_velocity=np.zeros(domains),
         end_wave=np.zeros(2 * domains), end_velocity=np.zeros(2 * domains),
-        end_theta=np.zeros(2 * domains), face_p=np.zeros(domains),
+        end_velocity_before=np.zeros(2 * domains), end_theta=np.zeros(2 * domains), face_p=np.zeros(domains),
         face_q=np.zeros((domains, 4)), spool=np.zeros(4), edge_coefficient=np.zeros(4),
         valve_velocity=np.zeros(4), ring=np.zeros((6, 4)), piston=np.zeros(1, PISTON_STATE),
         oil_stored=np.zeros(2), step=np.zeros(1, np.int64), fault=np.zeros(3))

@@ -65,8 +65,8 @@ class Model(NamedTuple):
     impedance: np.ndarray       # (D,) rho0 c/A [Pa s/m^3]
     inverse_area: np.ndarray    # (D,) [1/m^2]
     courant: np.ndarray         # (N,) c dt/dx [-]
-    slope: np.ndarray           # (N,) dt/dx [s/m]
-    friction: np.ndarray        # (N,) lambda dt/2 [s/m]
+    slope: np.ndarray           # (N,) dt/dx / 2 [s/m], for velocities 2 u
+    friction: np.ndarray        # (N,) lambda dt / 8 [s/m], for velocities 2 u
     junctions: np.ndarray       # (J,) JUNCTION
     valve: np.ndarray           # (1,) VALVE_PARAMETERS
     piston: np.ndarray          # (1,) PISTON_PARAMETERS
@@ -86,6 +86,7 @@ class State(NamedTuple):
     old_velocity: np.ndarray    # (D,) outflow velocity of the face at the old level [m/s]
     end_wave: np.ndarray        # (2 D,) wave that arrives [m/s]
     end_velocity: np.ndarray    # (2 D,) outflow velocity [m/s]
+    end_velocity_before: np.ndarray  # (2 D,) the same one step ago
     end_theta: np.ndarray       # (2 D,) foot of the arriving wave [cells]
     face_p: np.ndarray          # (D,) P at a moving face
     face_q: np.ndarray          # (D, 4) Q at a moving face now and one, two, three steps ago

@@ -11,8 +11,8 @@ import math
 from hydra_actuator.core.chamber import extend_to_face, renew_last_nodes, wave_at_face
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.fluid import End
-from hydra_actuator.core.line import arriving_wave, fill_ghosts, GHOSTS, sweep
-from hydra_actuator.core.orifice import MOST_PASSES, solve_orifice
+from hydra_actuator.core.line import arriving_wave, fill_ghost, sweep
+from hydra_actuator.core.orifice import solve_orifice
 from hydra_actuator.core.piston import face_pressures, implicitness, move_piston
 from hydra_actuator.core.records import (
     CLOSED,
@@ -30,20 +30,34 @@ from hydra_actuator.core.valve import edge_coefficients, move_spool, solve_valve
 
 @formula
 def step(model, state, inputs, passes):
-    """Advance the chain by one step time under the inputs of the new level."""
+    """
+    Advance the chain by one step time under the inputs of the new level.
+
+    Pass 1 takes u at the foot; at the ends, pass 2 takes the mean of foot and an arrival
+    extrapolated from two steps (also second order), so the junctions are solved once; each
+    further pass solves them again.
+    """
     mesh = (model.courant, model.slope, model.friction)
     move_spools(model, state, inputs)
     continue_beyond_ends(model, state)
-    sweep(state.wave_p, state.wave_q, state.new_p, state.new_q, mesh,
-          state.wave_p.size - 2 * GHOSTS, model.third_order, passes)
-    for k in range(len(passes)):
-        arrive(model, state, mesh, k == 0)
-        # an earlier pass only needs u at arrival for the slopes: one Newton step is plenty
-        most = MOST_PASSES if k == len(passes) - 1 else 1
+    sweep((state.wave_p, state.wave_q), (state.new_p, state.new_q), mesh, model.third_order,
+          passes)
+    extrapolate_ends(state)
+    for k in range(max(1, len(passes) - 1)):
+        arrive(model, state, mesh, (len(passes) == 1, k == 0))
         for j in range(model.junctions.size):
-            solve_junction(model, state, j, (inputs, most))
+            solve_junction(model, state, j, inputs)
     take_new_level(model, state, passes)
     state.step[0] += 1
+
+
+@formula
+def extrapolate_ends(state):
+    """Let the outflow velocities of all ends go on as they went in the last step."""
+    for end in range(state.end_velocity.size):
+        velocity = state.end_velocity[end]
+        state.end_velocity[end] = velocity + (velocity - state.end_velocity_before[end])
+        state.end_velocity_before[end] = velocity
 
 
 @formula
@@ -66,40 +80,51 @@ def continue_beyond_ends(model, state):
     for d in range(model.start.size):
         first, cells = model.start[d], state.last[d]
         last = first + cells
-        fill_ghosts(state.wave_p, first, 1, cells)
-        fill_ghosts(state.wave_q, first, 1, cells)
+        fill_ghost(state.wave_p, first, 1, cells)
+        fill_ghost(state.wave_q, first, 1, cells)
         if model.moving[d] == 1:
-            fraction = state.length[d] / model.spacing[d] - cells
+            fraction = state.old_length[d] / model.spacing[d] - cells
             extend_to_face(state.wave_p, last, cells, state.face_p[d], fraction)
             extend_to_face(state.wave_q, last, cells, state.face_q[d, 0], fraction)
         else:
-            fill_ghosts(state.wave_p, last, -1, cells)
-            fill_ghosts(state.wave_q, last, -1, cells)
+            fill_ghost(state.wave_p, last, -1, cells)
+            fill_ghost(state.wave_q, last, -1, cells)
 
 
 @formula
-def arrive(model, state, mesh, first_pass):
-    """Carry the waves to all ends, with the velocities of the pass before."""
+def arrive(model, state, mesh, stage):
+    """
+    Carry the waves to all ends.
+
+    stage: (whether the foot alone gives u, whether this is the first pass at the ends).
+    """
+    foot_alone, first_pass = stage
+    waves = (state.wave_p, state.wave_q)
     for d in range(model.start.size):
         first, left = model.start[d], 2 * d
-        right = left + 1
-        v_left = math.nan if first_pass else state.end_velocity[left]
+        right, last = left + 1, first + state.last[d]
         state.end_wave[left], state.end_theta[left] = arriving_wave(
             state.wave_q, state.wave_p, first, 0, mesh, model.third_order,
-            (v_left, state.end_theta[left]))
-        last = first + state.last[d]
+            guess_at(state, left, foot_alone, first_pass))
+        guess = guess_at(state, right, foot_alone, first_pass)
         if model.moving[d] == 1:
-            advance = 0.0
             if first_pass:
-                advance = model.step_time * state.end_velocity[right]
-            distance = (state.length[d] + advance) / model.spacing[d] - state.last[d]
+                state.length[d] = state.old_length[d] + 0.5 * model.step_time * (
+                    state.old_velocity[d] + state.end_velocity[right])
+            distance = state.length[d] / model.spacing[d] - state.last[d]
             state.end_wave[right], state.end_theta[right] = wave_at_face(
-                state, d, mesh, model.third_order, (last, distance), first_pass)
+                waves, last, distance, mesh, model.third_order, guess)
         else:
-            v_right = math.nan if first_pass else state.end_velocity[right]
             state.end_wave[right], state.end_theta[right] = arriving_wave(
-                state.wave_p, state.wave_q, last, 1, mesh, model.third_order,
-                (v_right, state.end_theta[right]))
+                state.wave_p, state.wave_q, last, 1, mesh, model.third_order, guess)
+
+
+@formula
+def guess_at(state, end, foot_alone, first_pass):
+    """Return (outflow velocity, theta) an arriving wave starts from, NaN for what is not used."""
+    velocity = math.nan if foot_alone else state.end_velocity[end]
+    theta = math.nan if first_pass else state.end_theta[end]
+    return velocity, theta
 
 
 @formula
@@ -112,13 +137,8 @@ def end_of(model, state, end):
 
 
 @formula
-def solve_junction(model, state, j, task):
-    """
-    Solve one junction: its ends' outflow velocities at the new level.
-
-    task: (inputs of the new level, passes of the orifices' iteration at most).
-    """
-    inputs, most = task
+def solve_junction(model, state, j, inputs):
+    """Solve one junction: its ends' outflow velocities at the new level."""
     junction = model.junctions[j]
     kind, end = junction.kind, junction.end[0]
     velocity = state.end_velocity
@@ -135,9 +155,9 @@ def solve_junction(model, state, j, task):
         other = junction.end[1]
         velocity[end], velocity[other] = solve_orifice(
             end_of(model, state, end), end_of(model, state, other),
-            junction.coefficient, junction.leakage, most)
+            junction.coefficient, junction.leakage)
     elif kind == VALVE:
-        solve_valve_junction(model, state, junction, most)
+        solve_valve_junction(model, state, junction)
     elif kind == PISTON:
         solve_piston_junction(model, state, junction, inputs)
     elif kind == WALL:
@@ -149,13 +169,13 @@ def solve_junction(model, state, j, task):
 
 
 @formula
-def solve_valve_junction(model, state, junction, most):
+def solve_valve_junction(model, state, junction):
     """Solve the four edges of the valve."""
     ends = (
         end_of(model, state, junction.end[0]), end_of(model, state, junction.end[1]),
         end_of(model, state, junction.end[2]), end_of(model, state, junction.end[3]))
     solve_valve(ends, state.valve_velocity, (state.edge_coefficient, model.valve[0].leakage),
-                state.ring, most)
+                state.ring)
     for k in range(4):
         state.end_velocity[junction.end[k]] = state.valve_velocity[k]
 
@@ -170,7 +190,7 @@ def solve_piston_junction(model, state, junction, inputs):
     theta = implicitness(ends, piston, model.step_time)
     load_force = inputs[junction.input]
     old = (motion.position, motion.velocity, motion.force, theta, model.step_time)
-    position, velocity, hit = move_piston(ends, piston, old, load_force, motion.new_velocity)
+    position, velocity, hit = move_piston(ends, piston, old, load_force, state.end_velocity[face_1])
     p_1, p_2, _, _, u_1, u_2 = face_pressures(ends, piston, velocity)
     motion.new_position = position
     motion.new_velocity = velocity

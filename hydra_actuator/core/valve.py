@@ -18,7 +18,7 @@ import math
 
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.fluid import end_relation
-from hydra_actuator.core.orifice import orifice_drop, settled, solve_orifice
+from hydra_actuator.core.orifice import MOST_PASSES, orifice_drop, settled, solve_orifice
 
 A, B, I, J = range(4)
 SOURCES = (A, A, B, I)
@@ -40,12 +40,12 @@ def edge_coefficients(valve, spool_1, spool_2, coefficient):
 
 
 @formula
-def solve_valve(ends, velocity, valve_edges, ring, most):
+def solve_valve(ends, velocity, valve_edges, ring):
     """
     Update the outflow velocities [m/s] (4,) of stations A, B, I, J in place.
 
     ends: four Ends; valve_edges: (K' of the edges (4,), their leakage); ring: work array (6, 4),
-    row 5 the edge flows; most: passes at most.
+    row 5 the edge flows.
     """
     coefficient, leakage = valve_edges
     direct = coefficient[0] > 0.0 or coefficient[3] > 0.0
@@ -53,18 +53,18 @@ def solve_valve(ends, velocity, valve_edges, ring, most):
     if leakage == 0.0 and not (direct and reverse):
         if reverse:
             velocity[A], velocity[I] = solve_orifice(
-                ends[A], ends[I], coefficient[1], 0.0, most)
+                ends[A], ends[I], coefficient[1], 0.0)
             velocity[B], velocity[J] = solve_orifice(
-                ends[B], ends[J], coefficient[2], 0.0, most)
+                ends[B], ends[J], coefficient[2], 0.0)
         else:
             velocity[A], velocity[B] = solve_orifice(
-                ends[A], ends[B], coefficient[0], 0.0, most)
+                ends[A], ends[B], coefficient[0], 0.0)
             velocity[I], velocity[J] = solve_orifice(
-                ends[I], ends[J], coefficient[3], 0.0, most)
+                ends[I], ends[J], coefficient[3], 0.0)
         return
     for k in range(4):
         velocity[k] = ends[k].velocity
-    for _ in range(most):
+    for _ in range(MOST_PASSES):
         done = True
         for k in range(4):
             p, q, z, flatness = end_relation(ends[k], velocity[k])
