@@ -61,8 +61,9 @@ def sweep(waves, new_waves, mesh, third_order, passes):
     new_p, new_q = new_waves
     courant, slope, friction = mesh
     for i in range(wave_p.size - 4):
-        p_far, p_behind, p_here, p_ahead = wave_p[i], wave_p[i + 1], wave_p[i + 2], wave_p[i + 3]
-        q_ahead, q_here, q_behind, q_far = wave_q[i + 1], wave_q[i + 2], wave_q[i + 3], wave_q[i + 4]
+        p_far, p_behind, p_here = wave_p[i], wave_p[i + 1], wave_p[i + 2]
+        p_ahead, q_ahead = wave_p[i + 3], wave_q[i + 1]
+        q_here, q_behind, q_far = wave_q[i + 2], wave_q[i + 3], wave_q[i + 4]
         sigma, kappa, loss = courant[i + 2], slope[i + 2], friction[i + 2]
         a_1, a_2, a_3 = cubic(p_ahead, p_here, p_behind, p_far, third_order)
         b_1, b_2, b_3 = cubic(q_ahead, q_here, q_behind, q_far, third_order)

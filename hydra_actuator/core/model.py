@@ -181,7 +181,8 @@ def _empty_state(domains: int, nodes: int) -> State:
         new_q=np.zeros(nodes), last=np.zeros(domains, np.int64), length=np.zeros(domains),
         old_length=np.zeros(domains), old_velocity=np.zeros(domains),
         end_wave=np.zeros(2 * domains), end_velocity=np.zeros(2 * domains),
-        end_velocity_before=np.zeros(2 * domains), end_theta=np.zeros(2 * domains), face_p=np.zeros(domains),
+        end_velocity_before=np.zeros(2 * domains), end_theta=np.zeros(2 * domains),
+        face_p=np.zeros(domains),
         face_q=np.zeros((domains, 4)), spool=np.zeros(4), edge_coefficient=np.zeros(4),
         valve_velocity=np.zeros(4), ring=np.zeros((6, 4)), piston=np.zeros(1, PISTON_STATE),
         oil_stored=np.zeros(2), step=np.zeros(1, np.int64), fault=np.zeros(3))

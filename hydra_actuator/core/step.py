@@ -190,7 +190,8 @@ def solve_piston_junction(model, state, junction, inputs):
     theta = implicitness(ends, piston, model.step_time)
     load_force = inputs[junction.input]
     old = (motion.position, motion.velocity, motion.force, theta, model.step_time)
-    position, velocity, hit = move_piston(ends, piston, old, load_force, state.end_velocity[face_1])
+    position, velocity, hit = move_piston(
+        ends, piston, old, load_force, state.end_velocity[face_1])
     p_1, p_2, _, _, u_1, u_2 = face_pressures(ends, piston, velocity)
     motion.new_position = position
     motion.new_velocity = velocity
