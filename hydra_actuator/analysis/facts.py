@@ -4,7 +4,7 @@
 from hydra_actuator.analysis import timing
 from hydra_actuator.analysis.figure import MEGAPASCAL, MICRO, MILLI
 from hydra_actuator.analysis.series import Series
-from hydra_actuator.analysis.window import dominant_frequency
+from hydra_actuator.analysis.window import motion_frequency
 from hydra_actuator.parameters.table import definitions
 import numpy as np
 
@@ -43,7 +43,8 @@ def real_time_facts(series: Series) -> Rows:
     rows: Rows = []
     reports = timing.real_time_reports(series)
     if reports:
-        rows += [(key.replace('_', ' '), text) for key, text in reports[-1].values.items()]
+        rows += [(key.replace('_', ' '), text + _unit(key))
+                 for key, text in reports[-1].values.items()]
     steps = timing.stamp_steps(series)
     if steps is not None:
         worst = np.abs(steps.deviation).max() * MICRO
@@ -55,6 +56,13 @@ def real_time_facts(series: Series) -> Rows:
         rows.append(('sending after the stamp, p50 / p99 / max',
                      f'{p50:.0f} / {p99:.0f} / {top:.0f} us'))
     return rows
+
+
+def _unit(key: str) -> str:
+    """Return the unit of one of the node's real-time statistics."""
+    if key.startswith(('lateness', 'execution')):
+        return ' us'
+    return ' s' if key == 'slip' else ''
 
 
 def _extreme_pressure(series: Series, word: str) -> str:
@@ -69,7 +77,7 @@ def _extreme_pressure(series: Series, word: str) -> str:
 
 def _frequency(series: Series) -> str:
     """Return the dominant frequency of the piston in words."""
-    frequency = dominant_frequency(series.time, series.position)
+    frequency = motion_frequency(series)
     return f'{frequency:.4g} Hz' if frequency else 'none (not periodic)'
 
 

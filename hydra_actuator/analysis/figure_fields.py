@@ -54,7 +54,7 @@ def surface(series: Series, field: Field, shown: Window, quantity: str) -> Figur
         'xaxis': {'title': {'text': 'x: pump to tank'}, 'tickvals': [x for x, _ in ends],
                   'ticktext': [letters for _, letters in ends]},
         'yaxis': {'title': {'text': 'time [ms]'}},
-        'zaxis': {'title': {'text': f'{name} [{unit}]'}},
+        'zaxis': {'title': {'text': unit}},
     }
     return Figure(
         f'surface_{quantity}', f'{name.capitalize()} over streamline and time',

@@ -25,11 +25,12 @@ def real_time(series: Series) -> Figure:
     values = timing.numeric_values(reports)
     traces, titles = [], []
     for quantity in ('lateness', 'execution'):
-        lines = {p: values.get(f'{quantity}_{p}') for p in _PERCENTILES}
-        if any(line is not None for line in lines.values()):
+        lines = {p: values[f'{quantity}_{p}'] for p in _PERCENTILES if f'{quantity}_{p}' in values}
+        if lines:
             titles.append(f'{quantity} [us]')
-            traces += [_line(p, time, line, len(titles), 'us', len(titles) == 1)
-                       for p, line in lines.items() if line is not None]
+            # Before the first tick the node reports zeros, which have no place on this axis.
+            traces += [_line(p, time, np.where(line > 0, line, np.nan), len(titles), 'us',
+                             len(titles) == 1) for p, line in lines.items()]
     for key in ('overruns', 'slip'):
         if np.any(np.nan_to_num(values.get(key, 0.0))) or (key == 'overruns' and key in values):
             titles.append('overruns' if key == 'overruns' else 'slip [s]')

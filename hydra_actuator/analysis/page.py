@@ -2,9 +2,9 @@
 """
 One HTML page from figures and tables: everything inside, nothing fetched.
 
-Arrays travel as base64 of 32-bit floats (times: 64-bit); fields as 16-bit steps between their
-lowest and highest value, which is finer than any screen. Equal arrays travel once. A content
-security policy in the page forbids every connection.
+Arrays travel as base64: lines as 32-bit floats, times as 32-bit steps and fields as 16-bit steps
+between their lowest and highest value, which is finer than any screen. Equal arrays travel once.
+A content security policy in the page forbids every connection.
 """
 
 import base64
@@ -18,8 +18,6 @@ from hydra_actuator.errors import InputError
 import numpy as np
 
 GENERATOR = '<meta name="generator" content="hydra_actuator report">'
-STEPS = 65534
-NOT_A_NUMBER = 65535
 
 
 class Arrays:
@@ -40,20 +38,23 @@ class Arrays:
 
 
 def _fine(values: np.ndarray) -> tuple[dict, bytes]:
-    """Return description and bytes of a line: 64-bit if it was given so, else 32-bit."""
-    kind = 'f8' if values.dtype == np.float64 else 'f4'
-    return {'type': kind}, np.ascontiguousarray(values, f'<{kind}').tobytes()
+    """Return description and bytes of a line: times (64-bit) in steps, values as they are."""
+    if values.dtype == np.float64:
+        return _stepped(values)
+    return {'type': 'f4'}, np.ascontiguousarray(values, '<f4').tobytes()
 
 
 def _stepped(values: np.ndarray) -> tuple[dict, bytes]:
-    """Return description and bytes of a field in 16-bit steps."""
+    """Return description and bytes of numbers in steps: 32-bit of times, 16-bit of a field."""
+    kind = 'u4' if values.ndim == 1 else 'u2'
+    no_number = np.iinfo(kind).max
     finite = np.isfinite(values)
     lowest = float(values[finite].min()) if finite.any() else 0.0
     highest = float(values[finite].max()) if finite.any() else 0.0
-    step = (highest - lowest) / STEPS or 1.0
-    steps = np.full(values.shape, NOT_A_NUMBER, '<u2')
+    step = (highest - lowest) / (no_number - 1) or 1.0
+    steps = np.full(values.shape, no_number, f'<{kind}')
     steps[finite] = np.rint((values[finite] - lowest) / step)
-    description = {'type': 'u2', 'shape': list(values.shape), 'lowest': lowest, 'step': step}
+    description = {'type': kind, 'shape': list(values.shape), 'lowest': lowest, 'step': step}
     return description, steps.tobytes()
 
 

@@ -34,8 +34,12 @@ def stamp_steps(series: Series) -> StampSteps | None:
 
 
 def real_time_reports(series: Series) -> list[Report]:
-    """Return the node's reports of its real-time statistics, in order of time."""
-    found = [r for r in series.diagnostics if r.name.endswith(REAL_TIME) and r.values]
+    """
+    Return the node's reports of its real-time statistics, in order of time.
+
+    Events of the same name, such as an overrun, have no count of ticks and are left out.
+    """
+    found = [r for r in series.diagnostics if r.name.endswith(REAL_TIME) and 'ticks' in r.values]
     return sorted(found, key=lambda report: report.time)
 
 

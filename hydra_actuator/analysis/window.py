@@ -15,6 +15,7 @@ import numpy as np
 PERIODS_SHOWN = 3
 FEWEST_PERIODS = 6            # in the record of a periodic run
 LONGEST_WINDOW = 0.1          # [s] of a run that is not periodic
+MOVING = 0.2                  # share of the highest speed above which the piston moves
 PURE = 0.6                    # share of the power in the dominant line of a periodic run
 FRAMES_PER_PERIOD = 16        # below this a field looks torn between frames
 TRAVELS_SHOWN = 8             # travel times through all domains in the wave window
@@ -56,12 +57,31 @@ def dominant_frequency(time: np.ndarray, values: np.ndarray) -> float:
     return float((peak + shift) / (len(values) * interval))
 
 
+def active_span(series: Series) -> tuple[float, float]:
+    """Return from when to when [s] the piston moved: idle before and after is left out."""
+    speed = np.abs(np.nan_to_num(series.velocity))
+    moving = np.flatnonzero(speed > MOVING * speed.max())
+    if not len(moving):
+        return float(series.time[0]), float(series.time[-1])
+    return float(series.time[moving[0]]), float(series.time[moving[-1]])
+
+
+def motion_frequency(series: Series) -> float:
+    """Return the frequency [Hz] of the piston while it moved; 0 if it has none."""
+    start, end = active_span(series)
+    part = slice(*np.searchsorted(series.time, [start, end + 1e-9]))
+    return dominant_frequency(series.time[part], series.position[part])
+
+
 def window_of(series: Series) -> Window:
     """Return the part of the run that is shown first."""
     start, end = float(series.time[0]), float(series.time[-1])
-    frequency = dominant_frequency(series.time, series.position)
+    frequency = motion_frequency(series)
     if frequency:
-        return Window(max(start, end - PERIODS_SHOWN / frequency), end, frequency)
+        _, moved = active_span(series)
+        # A motion that stops before the run does is shown without its last period, the stopping.
+        last = end if end - moved < 1 / frequency else moved - 1 / frequency
+        return Window(max(start, last - PERIODS_SHOWN / frequency), last, frequency)
     if end - start <= LONGEST_WINDOW:
         return Window(start, end)
     first = min(max(largest_step(series) - 0.2 * LONGEST_WINDOW, start), end - LONGEST_WINDOW)
@@ -108,8 +128,8 @@ def best_field(full: Field | None, stations: Field | None, shown: Window) -> Fie
 
 
 def whole_run_buckets(field: Field, shown: Window, most: int) -> int:
-    """Return in how many buckets to show a whole run: of whole periods, where it has some."""
-    periods = int((field.time[-1] - field.time[0]) * shown.frequency)
+    """Return in how many buckets to show a whole run: of about whole periods, if it has some."""
+    periods = round((field.time[-1] - field.time[0]) * shown.frequency)
     if periods < 2:
         return most
     return max(periods // -(-periods // most), 1)

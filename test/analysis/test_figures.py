@@ -72,6 +72,16 @@ def test_real_time_statistics_are_those_of_the_diagnostics(run):
     np.testing.assert_array_equal(overruns['x'], [1, 2, 3])
 
 
+def test_an_event_of_the_same_name_is_no_report(run):
+    event = replace(run.diagnostics[0], values={'late': '5'}, time=2.5)
+    figure = figure_timing.real_time(replace(run, diagnostics=(*run.diagnostics, event)))
+    assert all(np.isfinite(trace['y']).all() for trace in figure.traces)
+
+
+def test_real_time_facts_carry_their_units(run):
+    assert dict(facts.real_time_facts(run))['lateness p99'] == '140 us'
+
+
 def test_a_missing_tick_is_seen_in_the_stamps(run):
     kept = np.arange(len(run.time)) != 500
     gap = replace(run, **{

@@ -40,6 +40,16 @@ def test_a_periodic_run_shows_its_last_three_periods(run):
     assert shown.end - shown.start == pytest.approx(3 / 50, rel=1e-3)
 
 
+def test_idle_before_and_after_a_motion_is_not_shown(run):
+    moving = (run.time > 0.3) & (run.time < 0.7)
+    still = replace(run, position=np.where(moving, run.position, 0.0),
+                    velocity=np.where(moving, run.velocity, 0.0))
+    shown = window_of(still)
+    assert shown.frequency == pytest.approx(50, abs=0.1)
+    assert shown.end == pytest.approx(0.7 - 0.02, abs=0.005)
+    assert shown.end - shown.start == pytest.approx(3 / 50, rel=1e-2)
+
+
 def test_another_run_shows_its_largest_pressure_step(run):
     pressure = np.full_like(run.pressure, 1e7)
     pressure[700:, 3] = 2e7

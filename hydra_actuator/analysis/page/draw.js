@@ -13,30 +13,27 @@
     return result.buffer;
   }
 
-  // 1-D arrays are float32 or float64; 2-D ones 16-bit steps above a lowest value, 65535 = NaN.
+  // Lines are float32; times are 32-bit and fields 16-bit steps above a lowest value, the highest
+  // step standing for NaN.
   function array(index) {
     if (decoded.has(index)) return decoded.get(index);
     const packed = page.arrays[index];
+    const buffer = bytes(packed.data);
     let result;
-    if (packed.type === 'f4') result = new Float32Array(bytes(packed.data));
-    else if (packed.type === 'f8') result = new Float64Array(bytes(packed.data));
-    else result = rows(new Uint16Array(bytes(packed.data)), packed);
+    if (packed.type === 'f4') result = new Float32Array(buffer);
+    else if (packed.type === 'u4') result = numbers(new Uint32Array(buffer), packed, Float64Array);
+    else result = rows(numbers(new Uint16Array(buffer), packed, Float32Array), packed.shape);
     decoded.set(index, result);
     return result;
   }
 
-  function rows(steps, packed) {
-    const [count, width] = packed.shape;
-    const result = [];
-    for (let r = 0; r < count; r++) {
-      const row = new Float32Array(width);
-      for (let c = 0; c < width; c++) {
-        const step = steps[r * width + c];
-        row[c] = step === 65535 ? NaN : packed.lowest + step * packed.step;
-      }
-      result.push(row);
-    }
-    return result;
+  function numbers(steps, packed, Kind) {
+    const none = 2 ** (8 * steps.BYTES_PER_ELEMENT) - 1;
+    return Kind.from(steps, (step) => (step === none ? NaN : packed.lowest + step * packed.step));
+  }
+
+  function rows(values, [count, width]) {
+    return Array.from({ length: count }, (_, row) => values.subarray(row * width, (row + 1) * width));
   }
 
   function resolve(value) {
