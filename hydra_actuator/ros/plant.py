@@ -74,10 +74,7 @@ class Plant:
     def start(self) -> None:
         """Begin ticking; the first start puts the initial state into the ring."""
         self.failure = ''
-        self._base = max(time.time_ns(), self._stamp)
         self._held = self._inputs()
-        if not self._rows:
-            self._push(self._base)
         self._stopping = False
         self._thread = threading.Thread(target=self._run, name='solver', daemon=True)
         self._thread.start()
@@ -128,6 +125,9 @@ class Plant:
         try:
             self.prepare_thread()
             self._pacer.start()
+            self._base = max(time.time_ns(), self._stamp)
+            if not self._rows:
+                self._push(self._base)
             self._tick_until_stopped()
         except Exception:
             self.failure = 'solver thread: ' + traceback.format_exc()
