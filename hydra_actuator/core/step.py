@@ -10,22 +10,10 @@ import math
 
 from hydra_actuator.core.chamber import extend_to_face, renew_last_nodes, wave_at_face
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.fluid import End
+from hydra_actuator.core.junctions import solve_junction
 from hydra_actuator.core.line import arriving_wave, fill_ghost, sweep
-from hydra_actuator.core.orifice import solve_orifice
-from hydra_actuator.core.piston import face_pressures, implicitness, move_piston
-from hydra_actuator.core.records import (
-    CLOSED,
-    FLOW,
-    ORIFICE,
-    PISTON,
-    PRESSURE,
-    PUMP,
-    VALVE,
-    WALL,
-)
-from hydra_actuator.core.source import solve_flow_end, solve_pressure_end, solve_pump
-from hydra_actuator.core.valve import edge_coefficients, move_spool, solve_valve
+from hydra_actuator.core.records import VALVE
+from hydra_actuator.core.valve import edge_coefficients, move_spool
 
 
 @formula
@@ -125,84 +113,6 @@ def guess_at(state, end, foot_alone, first_pass):
     velocity = math.nan if foot_alone else state.end_velocity[end]
     theta = math.nan if first_pass else state.end_theta[end]
     return velocity, theta
-
-
-@formula
-def end_of(model, state, end):
-    """Return the End of a domain as the boundaries see it."""
-    d = end // 2
-    return End(
-        state.end_wave[end], state.end_velocity[end], model.slowness[d], model.bulk_modulus[d],
-        model.area[d], model.impedance[d], model.inverse_area[d])
-
-
-@formula
-def solve_junction(model, state, j, inputs):
-    """Solve one junction: its ends' outflow velocities at the new level."""
-    junction = model.junctions[j]
-    kind, end = junction.kind, junction.end[0]
-    velocity = state.end_velocity
-    if kind == CLOSED:
-        velocity[end] = 0.0
-    elif kind == PRESSURE:
-        velocity[end] = solve_pressure_end(end_of(model, state, end), inputs[junction.input])
-    elif kind == FLOW:
-        velocity[end] = solve_flow_end(end_of(model, state, end), inputs[junction.input])
-    elif kind == PUMP:
-        velocity[end], state.oil_stored[1] = solve_pump(
-            end_of(model, state, end), model.source[0], state.oil_stored[0], model.step_time)
-    elif kind == ORIFICE:
-        other = junction.end[1]
-        velocity[end], velocity[other] = solve_orifice(
-            end_of(model, state, end), end_of(model, state, other),
-            junction.coefficient, junction.leakage)
-    elif kind == VALVE:
-        solve_valve_junction(model, state, junction)
-    elif kind == PISTON:
-        solve_piston_junction(model, state, junction, inputs)
-    elif kind == WALL:
-        velocity[end] = inputs[junction.input]
-        d = end // 2
-        state.length[d] = (
-            state.old_length[d]
-            + 0.5 * model.step_time * (velocity[end] + state.old_velocity[d]))
-
-
-@formula
-def solve_valve_junction(model, state, junction):
-    """Solve the four edges of the valve."""
-    ends = (
-        end_of(model, state, junction.end[0]), end_of(model, state, junction.end[1]),
-        end_of(model, state, junction.end[2]), end_of(model, state, junction.end[3]))
-    solve_valve(ends, state.valve_velocity, (state.edge_coefficient, model.valve[0].leakage),
-                state.ring)
-    for k in range(4):
-        state.end_velocity[junction.end[k]] = state.valve_velocity[k]
-
-
-@formula
-def solve_piston_junction(model, state, junction, inputs):
-    """Move the piston and both faces."""
-    face_1, face_2 = junction.end[0], junction.end[1]
-    d_1, d_2 = face_1 // 2, face_2 // 2
-    piston, motion = model.piston[0], state.piston[0]
-    ends = (end_of(model, state, face_1), end_of(model, state, face_2))
-    theta = implicitness(ends, piston, model.step_time)
-    load_force = inputs[junction.input]
-    old = (motion.position, motion.velocity, motion.force, theta, model.step_time)
-    position, velocity, hit = move_piston(
-        ends, piston, old, load_force, state.end_velocity[face_1])
-    p_1, p_2, _, _, u_1, u_2 = face_pressures(ends, piston, velocity)
-    motion.new_position = position
-    motion.new_velocity = velocity
-    motion.new_force = (
-        model.area[d_1] * p_1 - model.area[d_2] * p_2 - piston.stiffness * position
-        - piston.viscous * velocity - load_force)
-    motion.hit = hit
-    state.end_velocity[face_1] = u_1
-    state.end_velocity[face_2] = -u_2
-    state.length[d_1] = piston.length_1 + position
-    state.length[d_2] = piston.length_2 - position
 
 
 @formula
