@@ -9,7 +9,7 @@ piston the line between the two chambers.
 from hydra_actuator.analysis import streamline
 from hydra_actuator.analysis.decimation import bucket_extremes
 from hydra_actuator.analysis.figure import Figure, MEGAPASCAL, MILLI
-from hydra_actuator.analysis.palette import PRESSURE_SCALE, VELOCITY_SCALE
+from hydra_actuator.analysis.palette import INK, PRESSURE_SCALE, VELOCITY_SCALE
 from hydra_actuator.analysis.series import Field, Series
 from hydra_actuator.analysis.window import Window
 import numpy as np
@@ -89,8 +89,7 @@ def wave_map(series: Series, field: Field, shown: Window, quantity: str,
     if field.faces is not None:
         traces.append({
             'type': 'scatter', 'mode': 'lines', 'name': 'piston', 'x': x[:, field.faces[0]],
-            'y': time, 'line': {'color': '#ffffff' if quantity == 'pressure' else '#222222',
-                                'width': 1.5, 'dash': 'dot'},
+            'y': time, 'line': {'color': INK, 'width': 1.5, 'dash': 'dot'},
             'hoverinfo': 'skip', 'showlegend': False,
         })
     return Figure(

@@ -12,7 +12,7 @@ BLUE, SKY, GREEN, ORANGE, VERMILION, PURPLE = (
 )
 LINES = (BLUE, SKY, GREEN, ORANGE, VERMILION, PURPLE)
 
-INK = '#2b3137'          # of what is drawn on a white page
+INK = '#22272c'          # of what is drawn on a map or a white page
 
 PRESSURE_SCALE = 'Cividis'
 VELOCITY_STOPS = ('#08366e', '#5b9bd0', '#e8e6e1', '#e09a55', '#7d2b05')

@@ -216,7 +216,7 @@ def _draw_lines(figure, series: Series, shown: Window) -> None:
     axes[-1].legend(**LEGEND)
     figure.align_ylabels(axes)
     for one in axes:
-        one.set_xlim(time[0], time[-1])
+        one.set_xlim(0, (shown.end - shown.start) * MILLI)
         one.grid(True)
         one.tick_params(labelsize=8, labelbottom=one is axes[-1])
 
