@@ -1,11 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """All cases, by name, in the order in which they are told."""
 
-from hydra_actuator.verification import budget, conservation, waves
+from hydra_actuator.verification import (
+    budget,
+    conservation,
+    grid,
+    oil_column,
+    passes,
+    spool_response,
+    waves,
+)
 from hydra_actuator.verification.case import Case
 
 CASES: dict[str, Case] = {
     **waves.CASES,
     **conservation.CASES,
     **budget.CASES,
+    **oil_column.CASES,
+    **spool_response.CASES,
+    **passes.CASES,
+    **grid.CASES,
 }

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The full actuator against its own solution on finer grids: errors and orders of convergence.
+
+Position and the pressures of all twelve stations, each millisecond, on 100, 200 and 400 cells
+against 1600. Three commands: an offset sine, whose valve never crosses zero; a full-stroke sine,
+whose valve reverses, with a kink in the flow through each edge at zero; a valve that closes
+in 0.5 ms. Commands are functions of time, evaluated at every step.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+
+from hydra_actuator.actuator import Actuator, SolverError
+from hydra_actuator.parameters import Parameters
+from hydra_actuator.verification.case import Case, Row
+from hydra_actuator.verification.spool_response import soft_step
+import numpy as np
+
+CELLS = (100, 200, 400)
+REFERENCE = 1600
+FREQUENCY = 50.0
+CLOSURE = 0.5e-3
+
+
+def offset_sine(times: np.ndarray) -> np.ndarray:
+    """Return the spool command (-1 to 1) of a valve that moves but does not reverse."""
+    return soft_step(times / 0.01) * (0.5 + 0.4 * np.sin(2.0 * np.pi * FREQUENCY * times))
+
+
+def full_sine(times: np.ndarray) -> np.ndarray:
+    """Return the full-stroke sine, reversing the valve each 10 ms."""
+    return np.sin(2.0 * np.pi * FREQUENCY * times)
+
+
+def smooth_closure(times: np.ndarray) -> np.ndarray:
+    """Return an opening that closes softly from 20 ms on, within 0.5 ms."""
+    return 0.2 * soft_step(times / 0.01) * (1.0 - soft_step((times - 0.02) / CLOSURE))
+
+
+def straight_closure(times: np.ndarray) -> np.ndarray:
+    """Return the same with constant spool speed: kinks at both ends of the closure."""
+    return 0.2 * soft_step(times / 0.01) * (1.0 - np.clip((times - 0.02) / CLOSURE, 0.0, 1.0))
+
+
+@dataclass(frozen=True)
+class Convergence:
+    """Largest errors over a run on each of CELLS, and their observed orders between two."""
+
+    position: np.ndarray
+    pressure: np.ndarray
+
+    @property
+    def position_orders(self) -> np.ndarray:
+        """Observed orders of the position."""
+        return np.log2(self.position[:-1] / self.position[1:])
+
+    @property
+    def pressure_orders(self) -> np.ndarray:
+        """Observed orders of the pressures."""
+        return np.log2(self.pressure[:-1] / self.pressure[1:])
+
+
+def rows_of(command: Callable, duration: float, cells: int) -> tuple[np.ndarray, Actuator]:
+    """Return the observations each millisecond under a command, and their actuator."""
+    actuator = Actuator(Parameters().replace({'solver.cells': cells}))
+    steps, rows = actuator.steps_per_period, []
+    for period in range(round(duration / actuator.period)):
+        times = np.arange(period * steps + 1, (period + 1) * steps + 1) * actuator.step_time
+        spool = command(times)
+        code = actuator.follow((times, np.column_stack((spool, spool, 0.0 * spool)), True), steps)
+        if code:
+            raise SolverError(actuator.status_message(code))
+        rows.append(actuator.row.copy())
+    return np.array(rows), actuator
+
+
+@cache
+def converge(command: Callable, duration: float) -> Convergence:
+    """Return the errors [m], [Pa] on CELLS against REFERENCE."""
+    exact, actuator = rows_of(command, duration, REFERENCE)
+    channels, errors = actuator.channels, []
+    for cells in CELLS:
+        error = np.abs(rows_of(command, duration, cells)[0] - exact)
+        errors.append((error[:, channels.POSITION].max(), error[:, channels.pressure].max()))
+    return Convergence(*np.array(errors).T)
+
+
+def _bars(name: str, found: Convergence, pressure_bar: float, reason: str) -> list[Row]:
+    """Return the errors at 200 cells against their bars, and the position's orders."""
+    at = CELLS.index(200)
+    rows = [
+        Row(name, 'position at 200 cells', 'm', 0.0, float(found.position[at]), 5e-8, False,
+            'the bar of the converged solution'),
+        Row(name, 'pressures at 200 cells', 'Pa', 0.0, float(found.pressure[at]), pressure_bar,
+            False, reason),
+    ]
+    for coarse, order in zip(CELLS, found.position_orders):
+        rows.append(Row(name, f'order of the position, {coarse} to {2 * coarse} cells', '-', 2.0,
+                        float(order), 0.2, False, 'second order; at least 1.8 is asked'))
+    return rows
+
+
+def grid_without_reversal() -> list[Row]:
+    """Drive with the offset sine."""
+    found = converge(offset_sine, 0.06)
+    rows = _bars('grid_without_reversal', found, 200.0, 'the bar of the converged solution')
+    for coarse, order in zip(CELLS, found.pressure_orders):
+        rows.append(Row('grid_without_reversal', f'order of the pressures, {coarse} to '
+                        f'{2 * coarse} cells', '-', 2.0, float(order), 0.2, False,
+                        'second order'))
+    return rows
+
+
+def grid_with_reversal() -> list[Row]:
+    """Drive with the full-stroke sine."""
+    return _bars('grid_with_reversal', converge(full_sine, 0.06), 8e3,
+                 'the kink at spool zero, in a field of 20 MPa')
+
+
+def grid_closing_valve() -> list[Row]:
+    """Close the valve in 0.5 ms, softly and at constant speed."""
+    name = 'grid_closing_valve'
+    soft, straight = converge(smooth_closure, 0.04), converge(straight_closure, 0.04)
+    rows = _bars(f'{name}, soft', soft, 1e3, 'a thousandth of the 1.1 MPa it raises')
+    rows += _bars(f'{name}, straight', straight, 2e4,
+                  'corners of the fronts are first order: 1.5 % of 1.1 MPa')[:2]
+    for coarse, order in zip(CELLS, straight.pressure_orders):
+        rows.append(Row(f'{name}, straight', f'order of the pressures, {coarse} to {2 * coarse} '
+                        'cells', '-', 1.0, float(order), 0.3, False, 'corners: first order'))
+    return rows
+
+
+CASES = {
+    'grid_without_reversal': Case(grid_without_reversal, 'convergence, offset sine'),
+    'grid_with_reversal': Case(grid_with_reversal, 'convergence, sine that reverses the valve'),
+    'grid_closing_valve': Case(grid_closing_valve, 'convergence, a valve closes in 0.5 ms'),
+}
