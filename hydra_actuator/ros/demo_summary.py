@@ -81,7 +81,7 @@ def _timing(figures: dict[str, float]) -> Summary:
 def _recorded(recording: Recording) -> Summary:
     """Compare each topic's count with the instants between first and last tick."""
     stamps = recording.row_stamps
-    ticks = int(round((stamps[-1] - stamps[0]) / PERIOD_NS)) + 1
+    ticks = round((stamps[-1] - stamps[0]) / PERIOD_NS) + 1
     duration = (stamps[-1] - stamps[0]) * 1e-9
     counts = {
         name: summary.count for name, summary in recording.topics.items()

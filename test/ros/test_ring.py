@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the solver puts into the ring comes out in order, or is counted as lost."""
+
+from hydra_actuator.ros.ring import Ring
+import numpy as np
+
+
+def fill(ring, first, last):
+    for number in range(first, last):
+        ring.push(1000 + number, number, (0.1, 0.2, 3.0), np.full(4, float(number)))
+
+
+def test_ticks_come_out_once_and_in_order():
+    ring = Ring(4, 1, length=8)
+    fill(ring, 0, 3)
+    first = list(ring.ticks())
+    fill(ring, 3, 8)
+    ticks = first + list(ring.ticks())
+    assert [tick.number for tick in ticks] == list(range(8))
+    assert [tick.stamp for tick in ticks] == list(range(1000, 1008))
+    assert [tick.row for tick in ticks] == [[float(n)] * 4 for n in range(8)]
+    assert ticks[0].inputs == [0.1, 0.2, 3.0]
+    assert not list(ring.ticks())
+    assert ring.lost == 0
+
+
+def test_a_reader_that_is_late_loses_the_oldest_and_knows_how_many():
+    ring = Ring(4, 1, length=8)
+    fill(ring, 0, 20)
+    numbers = [tick.number for tick in ring.ticks()]
+    assert numbers == list(range(13, 20))
+    assert ring.lost == 13
+
+
+def test_frames_keep_their_own_values():
+    ring = Ring(4, 3, frames=4)
+    for number in range(3):
+        ring.frame()[:] = number
+        ring.push_frame(100 + number, 0.5 * number)
+    frames = list(ring.frames())
+    assert [(frame.stamp, frame.time, frame.values[2, 1]) for frame in frames] == [
+        (100, 0.0, 0.0), (101, 0.5, 1.0), (102, 1.0, 2.0)]
+
+
+def test_signals_do_not_pile_up():
+    ring = Ring(4, 1)
+    ring.signal()
+    ring.signal()
+    ring.wait(10.0)
+    assert ring._news.locked()

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The supply is switched over a ramp, and is not touched while it is on."""
+
+from hydra_actuator.ros.supply import RAMP, Supply
+import numpy as np
+
+TICKS = round(RAMP / 1e-3)
+
+
+def supply():
+    return Supply(21e6, 2.5e6, 1e-3)
+
+
+def test_a_supply_that_is_on_gives_nothing_to_set():
+    own = supply()
+    assert [own.tick() for _ in range(100)] == [None] * 100
+
+
+def test_switched_off_it_falls_monotonically_to_the_tank_within_the_ramp():
+    own = supply()
+    own.on = False
+    given = [own.tick() for _ in range(TICKS + 1)]
+    assert np.all(np.diff([one for one in given if one is not None]) < 0.0)
+    assert given[TICKS - 1] == 2.5e6
+    assert own.tick() is None
+
+
+def test_switched_on_again_it_returns_to_exactly_its_pressure():
+    own = supply()
+    for own.on in (False, True):
+        given = [own.tick() for _ in range(TICKS + 5)]
+    assert [one for one in given if one is not None][-1] == 21e6
+
+
+def test_a_new_pressure_acts_at_once():
+    own = supply()
+    own.pressure = 15e6
+    assert own.tick() == 15e6
+    assert own.tick() is None
+
+
+def test_after_a_reset_the_pressure_is_given_anew():
+    own = supply()
+    own.forget()
+    assert own.tick() == 21e6
