@@ -19,7 +19,7 @@ setup(
     maintainer='hydra_actuator maintainers',
     maintainer_email='maintainers@users.noreply.h-seed-1c352a75.example',
     packages=find_packages(include=[NAME, f'{NAME}.*']),
-    package_data={NAME: ['analysis/page/*', 'recording/schemas/**/*']},
+    package_data={NAME: ['analysis/assets/*', 'recording/schemas/**/*']},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
         (f'share/{NAME}', ['package.xml']),

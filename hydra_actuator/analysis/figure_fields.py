@@ -81,8 +81,10 @@ def wave_map(series: Series, field: Field, shown: Window, quantity: str,
     time = (part.time - shown.start) * MILLI
     itself = _heatmap(grid, time, values, quantity)
     difference = _heatmap(grid, time, values - values.mean(axis=0), 'velocity')
-    difference['hovertemplate'] = itself['hovertemplate'].replace('}<', '} from the mean<')
-    difference['colorbar'] = itself['colorbar']
+    unit = unit.removesuffix(' abs')
+    difference['hovertemplate'] = (
+        f'x %{{x:.3f}} m<br>t %{{y:.4g}}<br>%{{z:.3f}} {unit} from the mean<extra></extra>')
+    difference['colorbar'] = _bar(unit)
     itself['visible'], difference['visible'] = not waves, waves
     traces, layout = [itself, difference], _map_layout(field, time, 'time [ms]')
     layout['updatemenus'] = [_choice([f'{name} itself', 'less its mean'], int(waves))]
@@ -122,7 +124,7 @@ def whole_run_map(field: Field, quantity: str, buckets: int = WHOLE_RUN_ROWS) ->
     )
 
 
-def _bar(name: str, unit: str) -> dict:
+def _bar(unit: str) -> dict:
     """Return the colour bar of a map or a surface."""
     return {'title': {'text': unit}, 'thickness': 12, 'len': 0.8, 'outlinewidth': 0}
 
@@ -152,7 +154,7 @@ def _heatmap(grid: np.ndarray, time: np.ndarray, values: np.ndarray, quantity: s
         'type': 'heatmap', 'name': name, 'x': np.asarray(grid, np.float32), 'y': time,
         'z': values, 'zsmooth': 'fast' if len(time) > MAP_FRAMES // 2 else 'best',
         'colorscale': PRESSURE_SCALE if quantity == 'pressure' else VELOCITY_SCALE,
-        'colorbar': _bar(name, unit), **_shared_range([values], quantity),
+        'colorbar': _bar(unit), **_shared_range([values], quantity),
         'hovertemplate': f'x %{{x:.3f}} m<br>t %{{y:.4g}}<br>%{{z:.3f}} {unit}<extra></extra>',
     }
 

@@ -111,7 +111,7 @@ def plotly_script() -> str:
 def _asset(name: str) -> str:
     """Return a file of the page."""
     files = resources.files('hydra_actuator.analysis')
-    return (files / 'page' / name).read_text(encoding='utf-8')
+    return (files / 'assets' / name).read_text(encoding='utf-8')
 
 
 def _place(figure: Figure) -> str:
