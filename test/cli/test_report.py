@@ -61,3 +61,13 @@ def test_bad_paths_are_one_line_and_exit_code_2(recording, capsys, monkeypatch, 
 def test_a_second_recording_is_refused(recording, capsys):
     assert main(['report', str(recording), str(recording), '-o', 'report.html']) == 2
     assert 'unrecognized arguments' in capsys.readouterr().err
+
+
+def test_a_recording_of_one_state_gives_a_page(tmp_path):
+    topics = ActuatorTopics()
+    with RecordingWriter(tmp_path / 'run', topics.all()) as writer:
+        state = messages.joint_state(5, ['piston', 'valve'], [0.01, 0], [0, 0], [0, 0])
+        writer.write(topics.joint_states, 5, 5, state)
+    page = tmp_path / 'report.html'
+    assert main(['report', str(tmp_path / 'run'), '-o', str(page)]) == 0
+    assert 'data-missing="stamps"' in page.read_text(encoding='utf-8')
