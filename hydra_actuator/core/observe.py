@@ -31,11 +31,12 @@ def find_limits(model, state):
         worst = 0.0
         for i in range(first, last + 1):
             speed = abs(state.wave_p[i] - state.wave_q[i])
-            if not speed <= worst:
+            # a NaN, once taken, is never replaced: no comparison with it is true
+            if speed > worst or speed != speed:
                 worst = speed
         if model.moving[d] == 1:
             speed = abs(state.face_p[d] - state.face_q[d, 0])
-            if not speed <= worst:
+            if speed > worst or speed != speed:
                 worst = speed
         mach = 0.5 * worst / model.wave_speed[d]
         if not mach <= largest:
