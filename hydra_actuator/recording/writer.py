@@ -13,6 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 import os
 from pathlib import Path
+import shutil
 import struct
 import time
 
@@ -61,7 +62,7 @@ class RecordingWriter:
         self._flush_period = flush_period
         topics, custom_data = _checked(topics), dict(custom_data or {})
         self._metadata = BagMetadata(topics, custom_data)
-        _make_directory(self.directory)
+        made = _make_directory(self.directory)
         try:
             self._segment = Segment(
                 self.directory / f'{self.directory.name}_0.mcap', topics, custom_data,
@@ -69,6 +70,8 @@ class RecordingWriter:
             )
             self._write_metadata()
         except OSError as error:
+            shutil.rmtree(self.directory, ignore_errors=True)
+            _remove(made)
             raise _failure(self.directory, error) from None
         self._flushed = time.monotonic()
 
@@ -149,7 +152,13 @@ def _checked(topics: Iterable[Topic]) -> list[Topic]:
     return list(by_name.values())
 
 
-def _make_directory(directory: Path) -> None:
+def _make_directory(directory: Path) -> list[Path]:
+    """Make a new directory and return what was made for it, the innermost first."""
+    try:
+        str(directory).encode()
+    except UnicodeEncodeError:
+        raise RecordingError(f'{directory} cannot be made: its name is not UTF-8') from None
+    missing = [path for path in (directory, *directory.parents) if not os.path.lexists(path)]
     try:
         directory.parent.mkdir(parents=True, exist_ok=True)
         directory.mkdir()
@@ -160,7 +169,18 @@ def _make_directory(directory: Path) -> None:
             else f'{taken} is not a directory'
         ) from None
     except OSError as error:
+        _remove(missing)
         raise RecordingError(f'{directory} cannot be made: {error.strerror}') from None
+    return missing
+
+
+def _remove(directories: list[Path]) -> None:
+    """Remove directories, the innermost first, as far as they are empty."""
+    for path in directories:
+        try:
+            path.rmdir()
+        except OSError:
+            continue
 
 
 def _failure(path: Path, error: OSError) -> RecordingFailure:

@@ -189,6 +189,15 @@ def test_a_path_through_a_file_is_refused(tmp_path):
         RecordingWriter(tmp_path / 'file' / 'run', [COMMAND])
 
 
+@pytest.mark.parametrize('name, culprit', [
+    ('x' * 300, 'name too long'), ('x' * 252, 'name too long'), (os.fsdecode(b'a\xff'), 'UTF-8'),
+])
+def test_a_name_no_file_can_have_leaves_nothing_behind(tmp_path, name, culprit):
+    with pytest.raises((RecordingError, RecordingFailure), match=culprit):
+        RecordingWriter(tmp_path / 'new' / 'run' / name, [COMMAND])
+    assert os.listdir(tmp_path) == []
+
+
 def test_an_unknown_compression_leaves_nothing_behind(tmp_path):
     with pytest.raises(RecordingError, match='lz5'):
         RecordingWriter(tmp_path / 'run', [COMMAND], compression='lz5')
