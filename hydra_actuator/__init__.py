@@ -6,6 +6,8 @@ The public names load on first use, so that a command starts before its heavy im
 """
 
 from importlib import import_module
+import sys
+from types import ModuleType
 
 __version__ = '0.1.0'
 __all__ = ['Actuator', 'load_parameters', 'load_recording', 'simulate']
@@ -30,3 +32,15 @@ def __getattr__(name: str):
 def __dir__() -> list[str]:
     """Return the public names, loaded or not."""
     return sorted({*globals(), *__all__})
+
+
+class _Package(ModuleType):
+    """A package whose public names are never hidden by a module of the same name."""
+
+    def __setattr__(self, name: str, value: object) -> None:
+        """Leave out `simulate` the module: importing it would put it in the function's place."""
+        if name not in _HOMES or not isinstance(value, ModuleType):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
