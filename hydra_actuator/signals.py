@@ -16,6 +16,7 @@ from hydra_actuator.errors import InputError
 import numpy as np
 
 Signal = Callable[[np.ndarray], np.ndarray]
+LONGEST_QUOTE = 40
 
 
 def both_spools(spool: np.ndarray, load_force: np.ndarray | float = 0.0) -> np.ndarray:
@@ -94,8 +95,9 @@ class Table:
         if self.hold:
             row = np.maximum(np.searchsorted(self.times, times, side='right') - 1, 0)
             return both_spools(self.spool[row], self.load_force[row])
-        return both_spools(np.interp(times, self.times, self.spool),
-                           np.interp(times, self.times, self.load_force))
+        # Rounding in the interpolation can pass full spool by a unit in the last place.
+        spool = np.clip(np.interp(times, self.times, self.spool), -1.0, 1.0)
+        return both_spools(spool, np.interp(times, self.times, self.load_force))
 
 
 def read_table(path: str | Path, hold: bool = False) -> Table:
@@ -106,16 +108,19 @@ def read_table(path: str | Path, hold: bool = False) -> Table:
     """
     path = Path(path)
     try:
-        with path.open(newline='') as file:
+        with path.open(newline='', encoding='utf-8-sig') as file:
             rows = list(csv.reader(file))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f'{path}: {getattr(error, "strerror", None) or error}') from None
+    except OSError as error:
+        raise InputError(f'{path} cannot be read: {error.strerror or error}') from None
+    except (UnicodeDecodeError, csv.Error):
+        raise InputError(f'{path} cannot be read: it is no CSV text') from None
     if not rows:
         raise InputError(f'{path} is empty; it needs the header time,spool and rows')
     header = [name.strip() for name in rows[0]]
     if header not in (['time', 'spool'], ['time', 'spool', 'load_force']):
         raise InputError(
-            f'{path}: header {",".join(header)!r} is neither time,spool nor time,spool,load_force')
+            f'{path}: header {_short(",".join(header))} is neither time,spool nor '
+            'time,spool,load_force')
     values = [_numbers(path, line, row, header)
               for line, row in enumerate(rows[1:], 2) if any(cell.strip() for cell in row)]
     if not values:
@@ -134,14 +139,21 @@ def _numbers(path: Path, line: int, row: list[str], header: list[str]) -> tuple[
     numbers = []
     for name, cell in zip(header, row):
         try:
-            number = float(cell)
+            # float() takes 1_000, which in a file is more likely a slip.
+            number = float(cell.replace('_', '?'))
         except ValueError:
-            raise InputError(f'{path}, line {line}: {name} {cell!r} is not a number') from None
+            raise InputError(f'{path}, line {line}: {name} {_short(cell)} is not a number'
+                             ) from None
         if not math.isfinite(number):
-            raise InputError(f'{path}, line {line}: {name} {cell} is not finite')
+            raise InputError(f'{path}, line {line}: {name} {_short(cell)} is not finite')
         numbers.append(number)
     if not -1.0 <= numbers[1] <= 1.0:
         raise InputError(f'{path}, line {line}: spool {numbers[1]:g} is not within -1 to 1')
     if numbers[0] < 0.0:
         raise InputError(f'{path}, line {line}: time {numbers[0]:g} s is before 0')
     return line, numbers
+
+
+def _short(text: str) -> str:
+    """Return a text in quotes, cut to what a message can hold."""
+    return repr(text if len(text) <= LONGEST_QUOTE else f'{text[:LONGEST_QUOTE]}...')
