@@ -3,18 +3,28 @@
 An offline run, as fast as it goes: the node's solver, the node's recording.
 
 Time starts at 0 and the initial state is the first record. An output instant between two steps
-is the next step, with its own stamp. Commands are evaluated at every step.
+is the next step, with its own stamp; faster outputs than the steps are one per step. The command
+is evaluated at every step, whatever the outputs are.
+
+Beside the states, a recording holds the command as it stood at each tick and at each state, when
+it had changed since: a command that moves with every step is not kept step by step.
 """
 
 from collections.abc import Callable
+from contextlib import ExitStack
 from dataclasses import dataclass
+from functools import cached_property
 import math
 from pathlib import Path
+from typing import NamedTuple, Protocol
 
 from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.channels import Channels
+from hydra_actuator.errors import InputError
+from hydra_actuator.interruption import HeldInterrupt
 from hydra_actuator.parameters import Parameters
-from hydra_actuator.recording.messages import float64
+from hydra_actuator.recording.messages import float64, float64_multi_array
+from hydra_actuator.recording.reader import load_recording
 from hydra_actuator.recording.run_data import run_data
 from hydra_actuator.recording.tick import AppliedEncoder, FieldEncoder, TickEncoder
 from hydra_actuator.recording.topics import ActuatorTopics
@@ -28,11 +38,23 @@ NEVER = 1 << 62
 
 @dataclass(frozen=True)
 class Simulation:
-    """Rows (T, channels.width) of an offline run, their channels, and its recording if any."""
+    """What an offline run gave: its recording, or the rows themselves if none was asked for."""
 
-    rows: np.ndarray
     channels: Channels
     recording: Path | None
+    kept_rows: np.ndarray | None = None
+
+    @cached_property
+    def rows(self) -> np.ndarray:
+        """
+        Rows (T, channels.width), one per state.
+
+        A recording is read for them when they are first asked for. What it does not hold is NaN:
+        the Mach number, and flow velocities where the sections have another rate.
+        """
+        if self.kept_rows is not None:
+            return self.kept_rows
+        return load_recording(self.recording).rows
 
 
 class OutputClock:
@@ -40,7 +62,7 @@ class OutputClock:
 
     def __init__(self, rate: float, step_time: float) -> None:
         """Start at step 0; a rate of 0 Hz is never."""
-        self._interval = 1.0 / (rate * step_time) if rate > 0.0 else math.inf
+        self._interval = 1.0 / max(rate * step_time, 1.0 / NEVER)
         self._count = 0
         self.next_step = 0 if rate > 0.0 else NEVER
 
@@ -49,7 +71,8 @@ class OutputClock:
         if step < self.next_step:
             return False
         self._count += 1
-        self.next_step = math.ceil(self._count * self._interval - 1e-6)
+        instant = math.ceil(self._count * self._interval - 1e-6)
+        self.next_step = max(step + 1, instant)
         return True
 
 
@@ -57,110 +80,162 @@ def simulate(parameters: Parameters | None = None, command: Signal | None = None
              duration: float = 1.0, output: str | Path | None = None, rate: float | None = None,
              progress: Callable[[float], None] | None = None) -> Simulation:
     """
-    Run an actuator for `duration` [s] and return its rows.
+    Run an actuator for `duration` [s].
 
     command: a signal of hydra_actuator.signals, or None for zero; output: directory of a new
-    recording; rate [Hz]: of states and pressures, else as parameters say; progress: called with
-    the share done. Raises SolverError where the method breaks (what was recorded until then is
-    kept), RecordingError for an output that exists.
+    recording, with which a run of any length takes no more memory; rate [Hz]: of states and
+    pressures, else as parameters say; progress: called with the share done.
+
+    Raises SolverError where the method breaks, KeyboardInterrupt on Ctrl-C: what was recorded
+    until then is closed and whole. Raises InputError for what cannot be run, ParameterError and
+    RecordingError among it, before anything is written.
     """
+    if not 0.0 <= duration < math.inf:
+        raise InputError(f'duration {duration!r} is not a time of zero or more seconds')
+    if rate is not None and not 0.0 < rate < math.inf:
+        raise InputError(f'rate {rate!r} is not a positive frequency in Hz')
     actuator = Actuator(parameters)
     run = _Run(actuator, Hold() if command is None else command, rate)
     steps = math.ceil(duration / actuator.step_time - 1e-6)
-    if output is None:
-        run.to(steps, progress)
-        return Simulation(np.array(run.rows), actuator.channels, None)
-    topics = ActuatorTopics(NODE, actuator.channels.section_names)
-    with RecordingWriter(output, topics.all(), _run_data(actuator)) as writer:
-        run.write_to(writer, topics)
-        run.to(steps, progress)
-    return Simulation(np.array(run.rows), actuator.channels, Path(output))
+    with HeldInterrupt() as interrupt, ExitStack() as closing:
+        sink = _Rows() if output is None else _Recording(actuator, output)
+        closing.callback(sink.close)
+        for step in run.outputs(steps, sink):
+            interrupt.raise_if_asked()
+            if progress is not None:
+                progress(step / max(steps, 1))
+    if output is not None:
+        return Simulation(actuator.channels, Path(output))
+    rows = np.array(sink.rows).reshape(-1, actuator.channels.width)
+    return Simulation(actuator.channels, None, rows)
+
+
+class _Due(NamedTuple):
+    """What is to be written at an instant."""
+
+    tick: bool
+    states: bool
+    pressures: bool
+    sections: bool
+    field: bool
+
+
+class _Sink(Protocol):
+    """Where outputs go; `command` is [spool 1, spool 2, load force] in force."""
+
+    def take(self, due: _Due, actuator: Actuator, command: list[float]) -> None: ...
+    def close(self) -> None: ...
 
 
 class _Run:
-    """The loop over output instants."""
+    """The steps from one output instant to the next, with the commands on the way."""
 
     def __init__(self, actuator: Actuator, command: Signal, rate: float | None) -> None:
         p = actuator.parameters
-        self.rows: list[np.ndarray] = []
         self._actuator, self._command = actuator, command
-        self._step = 0
-        self._writer: RecordingWriter | None = None
-        rates = (p['publish.rate'] if rate is None else rate,
-                 p['publish.pressure_rate'] if rate is None else rate,
-                 p['publish.sections_rate'], p['recording.field_rate'])
-        self._states, self._pressures, self._sections, self._fields = (
-            OutputClock(frequency, actuator.step_time) for frequency in rates)
+        own = (p['publish.rate'], p['publish.pressure_rate']) if rate is None else (rate, rate)
+        rates = (1.0 / actuator.period, *own, p['publish.sections_rate'],
+                 p['recording.field_rate'])
+        self._clocks = [OutputClock(one, actuator.step_time) for one in rates]
+        self._now = self._commands(np.zeros(1))[0].tolist()
+        actuator.row[Channels.LOAD_FORCE] = self._now[2]
 
-    def write_to(self, writer: RecordingWriter, topics: ActuatorTopics) -> None:
-        """Record from now on."""
-        actuator, p = self._actuator, self._actuator.parameters
-        joints = [p['command.piston_joint'], *_valve_joints(p)]
-        self._writer, self._topics = writer, topics
-        self._tick = TickEncoder(actuator.channels, joints, topics)
-        self._applied = AppliedEncoder(p['valve.spools'])
-        self._field = np.empty((len(actuator.field_labels), 2), np.float32)
-        self._field_encoder = FieldEncoder(len(self._field))
+    def outputs(self, last_step: int, sink: _Sink):
+        """Run to a step, hand what is due to the sink, and yield each step where that was so."""
+        step = 0
+        self._output(step, sink)
+        while step < last_step:
+            until = min(last_step, *(clock.next_step for clock in self._clocks))
+            self._advance(step, until)
+            step = until
+            self._output(step, sink)
+            yield step
 
-    def to(self, last_step: int, progress: Callable[[float], None] | None) -> None:
-        """Run to a step, outputs on the way included."""
-        self._output()
-        clocks = (self._states, self._pressures, self._sections, self._fields)
-        while self._step < last_step:
-            until = min(last_step, self._step + self._actuator.steps_per_period,
-                        *(clock.next_step for clock in clocks))
-            self._advance(until)
-            self._output()
-            if progress is not None:
-                progress(self._step / last_step)
-
-    def _advance(self, until: int) -> None:
-        times = np.arange(self._step + 1, until + 1) * self._actuator.step_time
-        commands = self._command(times)
-        code = self._actuator.follow((times, commands, True), until - self._step)
+    def _advance(self, step: int, until: int) -> None:
+        times = np.arange(step + 1, until + 1) * self._actuator.step_time
+        commands = self._commands(times)
+        code = self._actuator.follow((times, commands, True), until - step)
         if code:
             raise SolverError(self._actuator.status_message(code))
-        self._step = until
+        self._now = commands[-1].tolist()
 
-    def _output(self) -> None:
-        actuator, step = self._actuator, self._step
-        states, pressures = self._states.due(step), self._pressures.due(step)
-        sections, field = self._sections.due(step), self._fields.due(step)
-        if states:
+    def _commands(self, times: np.ndarray) -> np.ndarray:
+        commands = np.asarray(self._command(times), float)
+        if commands.shape != (len(times), 3):
+            raise InputError(f'the command gives an array of shape {commands.shape} for '
+                             f'{len(times)} times, not {(len(times), 3)}')
+        sound = (np.abs(commands[:, :2]) <= 1.0).all(axis=1) & np.isfinite(commands[:, 2])
+        for k in np.flatnonzero(~sound):
+            raise InputError(f'the command {commands[k].tolist()} at {times[k]:g} s is not two '
+                             'spools from -1 to 1 and a finite load')
+        return commands
+
+    def _output(self, step: int, sink: _Sink) -> None:
+        sink.take(_Due(*(clock.due(step) for clock in self._clocks)), self._actuator, self._now)
+
+
+class _Rows:
+    """Keeps the states in memory."""
+
+    def __init__(self) -> None:
+        self.rows: list[np.ndarray] = []
+
+    def take(self, due: _Due, actuator: Actuator, command: list[float]) -> None:
+        """Keep the row if a state is due."""
+        if due.states:
             self.rows.append(actuator.row.copy())
-        if self._writer is None:
-            return
-        stamp = round(actuator.time * 1e9)
-        row = actuator.row.tolist()
-        topics, messages = self._topics, []
-        if states:
-            messages.append((topics.joint_states, self._tick.joint_state(row, stamp)))
-            messages += self._command_messages(stamp)
-        if pressures:
+
+    def close(self) -> None:
+        """Do nothing."""
+
+
+class _Recording:
+    """Writes everything into a recording."""
+
+    def __init__(self, actuator: Actuator, output: str | Path) -> None:
+        p, channels = actuator.parameters, actuator.channels
+        topics = ActuatorTopics(NODE, channels.section_names)
+        self._topics, self._spools = topics, channels.spools
+        joint = p['command.valve_joint']
+        joints = [p['command.piston_joint'], joint, f'{joint}_2'][:1 + channels.spools]
+        self._tick = TickEncoder(channels, joints, topics)
+        self._applied = AppliedEncoder(channels.spools)
+        self._field = np.empty((len(actuator.field_labels), 2), np.float32)
+        self._field_encoder = FieldEncoder(len(self._field))
+        self._command: list[float] = []
+        about = run_data('simulate', p.as_yaml(), actuator.section_positions,
+                         actuator.field_positions, actuator.field_labels)
+        self._writer = RecordingWriter(output, topics.all(), about, p['recording.flush_period'],
+                                       compression=p['recording.compression'])
+        self.close = self._writer.close
+
+    def take(self, due: _Due, actuator: Actuator, command: list[float]) -> None:
+        """Write what is due, and the command if it has changed."""
+        time, row = actuator.time, actuator.row.tolist()
+        stamp = round(time * 1e9)
+        messages: list[tuple[str, bytes]] = []
+        if (due.tick or due.states) and command != self._command:
+            messages += self._command_messages(actuator.tick, command)
+        if due.states:
+            messages.append((self._topics.joint_states, self._tick.joint_state(row, stamp)))
+        if due.pressures:
             messages += self._tick.pressures(row, stamp)
-        if sections:
-            messages.append((topics.sections, self._tick.sections(row, stamp)))
-        if field:
+        if due.sections:
+            messages.append((self._topics.sections, self._tick.sections(row, stamp)))
+        if due.field:
             actuator.read_field(self._field)
-            messages.append(
-                (topics.field, self._field_encoder.encode(actuator.time, self._field)))
+            messages.append((self._topics.field, self._field_encoder.encode(time, self._field)))
         self._writer.write_batch([(topic, stamp, stamp, data) for topic, data in messages])
 
-    def _command_messages(self, stamp: int) -> list[tuple[str, bytes]]:
-        command = self._command(np.array([self._actuator.time]))[0]
-        spools = command[:self._actuator.channels.spools].tolist()
-        return [
-            (self._topics.spool_command, float64(spools[0])),
-            (self._topics.load_force, float64(float(command[2]))),
-            (self._topics.applied,
-             self._applied.encode(self._actuator.tick, spools, float(command[2])))]
-
-
-def _run_data(actuator: Actuator) -> dict[str, str]:
-    return run_data('simulate', actuator.parameters.as_yaml(), actuator.section_positions,
-                    actuator.field_positions, actuator.field_labels)
-
-
-def _valve_joints(p: Parameters) -> list[str]:
-    first = p['command.valve_joint']
-    return [first] if p['valve.spools'] == 1 else [first, f'{first}_2']
+    def _command_messages(self, tick: int, command: list[float]) -> list[tuple[str, bytes]]:
+        """Return what is applied, and those of the commands that are other than before."""
+        topics, before = self._topics, self._command
+        self._command = command
+        spools, load_force = command[:self._spools], command[2]
+        messages = [(topics.applied, self._applied.encode(tick, spools, load_force))]
+        if spools != before[:self._spools]:
+            messages.append((topics.spool_command, float64(spools[0])) if len(spools) == 1 else
+                            (topics.commands, float64_multi_array(spools)))
+        if [load_force] != before[2:]:
+            messages.append((topics.load_force, float64(load_force)))
+        return messages

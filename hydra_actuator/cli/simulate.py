@@ -4,6 +4,7 @@
 import argparse
 import math
 import os
+from pathlib import Path
 
 from hydra_actuator.cli.progress import ProgressBar
 from hydra_actuator.errors import InputError
@@ -25,11 +26,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                        help='sine command sweeping between two frequencies')
     parser.add_argument('--hold', action='store_true',
                         help='hold each row of the CSV until the next')
-    parser.add_argument('--amplitude', type=float, default=1.0, metavar='A',
+    parser.add_argument('--amplitude', type=float, metavar='A',
                         help='of the built-in commands, 1 is full spool (default 1)')
     parser.add_argument('--duration', type=float, metavar='T',
                         help='[s]; default: the CSV to its end, else 1')
-    parser.add_argument('--rate', type=float, metavar='HZ', help='of states and pressures')
+    parser.add_argument('--rate', type=float, metavar='HZ', help='of states and pressures; once a step at most')
     parser.add_argument('-o', '--output', required=True, metavar='OUT',
                         help='directory of the new recording')
 
@@ -44,6 +45,8 @@ def run(arguments: argparse.Namespace) -> int:
     duration = arguments.duration
     if duration is None:
         duration = table.duration if table is not None else DEFAULT_DURATION
+    if duration == 0.0:
+        raise InputError(f'{arguments.command} ends at time 0 s: say --duration')
     from hydra_actuator.simulate import simulate
     with ProgressBar('simulate') as progress:
         result = simulate(parameters, table or _built_in(arguments, duration), duration,
@@ -57,22 +60,38 @@ def _check(arguments: argparse.Namespace) -> None:
         value = getattr(arguments, name)
         if value is not None and not 0.0 < value < math.inf:
             raise InputError(f'--{name} {value:g} is not a positive number')
-    if arguments.chirp and not all(0.0 <= f < math.inf for f in arguments.chirp):
-        raise InputError(f'--chirp {arguments.chirp} are not two frequencies in Hz')
-    if not -1.0 <= arguments.amplitude <= 1.0:
-        raise InputError(f'--amplitude {arguments.amplitude:g} is not within -1 to 1')
+    for frequency in arguments.chirp or ():
+        if not 0.0 <= frequency < math.inf:
+            raise InputError(f'--chirp {frequency:g} is not a frequency in Hz')
+    amplitude = arguments.amplitude
+    if amplitude is not None and not -1.0 <= amplitude <= 1.0:
+        raise InputError(f'--amplitude {amplitude:g} is not within -1 to 1')
+    if amplitude is not None and not (arguments.sine or arguments.step or arguments.chirp):
+        raise InputError('--amplitude goes with --sine, --step or --chirp')
     if arguments.hold and not arguments.command:
         raise InputError('--hold goes with --command')
-    if os.path.lexists(arguments.output):
-        raise InputError(f'{arguments.output} exists already, and nothing is overwritten')
+    _refuse_output(arguments.output)
+
+
+def _refuse_output(output: str) -> None:
+    """Raise InputError for what cannot become a directory, before long work for it begins."""
+    path = Path(os.path.abspath(output))
+    if os.path.lexists(path):
+        raise InputError(f'{path} exists already, and nothing is overwritten')
+    parent = next(parent for parent in path.parents if os.path.lexists(parent))
+    if not os.path.isdir(parent):
+        raise InputError(f'{path} cannot be made: {parent} is not a directory')
+    if not os.access(parent, os.W_OK | os.X_OK):
+        raise InputError(f'{path} cannot be made: {parent} is not writable')
 
 
 def _built_in(arguments: argparse.Namespace, duration: float):
     from hydra_actuator.signals import Chirp, Hold, Sine, Step
+    amplitude = 1.0 if arguments.amplitude is None else arguments.amplitude
     if arguments.sine is not None:
-        return Sine(arguments.sine, arguments.amplitude)
+        return Sine(arguments.sine, amplitude)
     if arguments.step:
-        return Step(arguments.amplitude)
+        return Step(amplitude)
     if arguments.chirp:
-        return Chirp(*arguments.chirp, duration, arguments.amplitude)
+        return Chirp(*arguments.chirp, duration, amplitude)
     return Hold()

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ctrl-C waits for the end of a piece of work, and is never lost."""
+
+import signal
+import threading
+
+from hydra_actuator import interruption
+from hydra_actuator.interruption import HeldInterrupt
+import pytest
+
+
+def interrupt():
+    signal.raise_signal(signal.SIGINT)
+
+
+def test_an_interrupt_waits_until_it_is_asked_for():
+    done = []
+    with pytest.raises(KeyboardInterrupt), HeldInterrupt() as held:
+        held.raise_if_asked()
+        interrupt()
+        done.append('rest of the piece')
+        held.raise_if_asked()
+        done.append('next piece')
+    assert done == ['rest of the piece']
+
+
+def test_an_interrupt_nobody_asked_for_comes_at_the_end_of_the_block():
+    done = []
+    with pytest.raises(KeyboardInterrupt), HeldInterrupt():
+        interrupt()
+        done.append('closed')
+    assert done == ['closed']
+
+
+def test_an_error_is_not_hidden_by_an_interrupt():
+    with pytest.raises(ZeroDivisionError), HeldInterrupt():
+        interrupt()
+        1 / 0
+
+
+def test_a_second_interrupt_is_held_at_once_but_not_for_long(monkeypatch):
+    done = []
+    with pytest.raises(KeyboardInterrupt), HeldInterrupt():
+        interrupt()
+        interrupt()
+        done.append('both held')
+        monkeypatch.setattr(interruption, 'PATIENCE', -1.0)
+        interrupt()
+        done.append('still hanging')
+    assert done == ['both held']
+
+
+def test_python_has_its_own_handler_back_afterwards():
+    with HeldInterrupt():
+        assert signal.getsignal(signal.SIGINT) is not signal.default_int_handler
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+@pytest.mark.parametrize('handler', [signal.SIG_IGN, lambda *_: None])
+def test_a_foreign_handler_is_left_alone(handler):
+    before = signal.signal(signal.SIGINT, handler)
+    try:
+        with HeldInterrupt():
+            assert signal.getsignal(signal.SIGINT) is handler
+        assert signal.getsignal(signal.SIGINT) is handler
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_another_thread_than_the_main_one_can_enter():
+    entered = []
+
+    def work():
+        with HeldInterrupt() as held:
+            held.raise_if_asked()
+            entered.append(True)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert entered == [True]
