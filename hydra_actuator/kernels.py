@@ -17,6 +17,7 @@ from pathlib import Path
 import shutil
 import sys
 import tempfile
+import time
 
 import hydra_actuator.core
 from hydra_actuator.core.advance import advance
@@ -30,6 +31,8 @@ import numpy as np
 KERNELS = (advance, observe, read_field)
 MANIFEST = 'manifest.json'
 MOST_KEPT = 8
+UNFINISHED = 'new-'
+LONGEST_COMPILATION = 3600.0
 
 
 @contextmanager
@@ -107,7 +110,7 @@ def _checksums(place: Path) -> dict[str, str]:
 def _workshop(place: Path) -> Path | None:
     try:
         place.parent.mkdir(parents=True, exist_ok=True)
-        return Path(tempfile.mkdtemp(prefix='new-', dir=place.parent))
+        return Path(tempfile.mkdtemp(prefix=UNFINISHED, dir=place.parent))
     except OSError:
         return None
 
@@ -124,6 +127,10 @@ def _publish(workshop: Path, place: Path) -> None:
 
 
 def _prune(root: Path) -> None:
+    """Remove all but the newest directories, and what killed compilations left behind."""
+    for entry in root.glob(f'{UNFINISHED}*'):
+        if time.time() - entry.stat().st_mtime > LONGEST_COMPILATION:
+            shutil.rmtree(entry, ignore_errors=True)
     kept = sorted((entry for entry in root.iterdir() if (entry / MANIFEST).exists()),
                   key=lambda entry: entry.stat().st_mtime, reverse=True)
     for entry in kept[MOST_KEPT:]:
