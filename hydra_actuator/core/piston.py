@@ -130,6 +130,8 @@ def slide(ends, piston, motion, load_force, guess):
             friction, steepness = seal_friction(piston, abs(velocity))
             defect += direction * friction
             slope += steepness
+        if defect != defect:
+            return defect
         if defect > 0.0:
             high = velocity
         else:
@@ -152,7 +154,7 @@ def move_piston(ends, piston, motion, load_force, guess):
     x_old, v_old, _, theta, step_time = motion
     velocity = slide(ends, piston, motion, load_force, guess)
     position = x_old + step_time * (theta * velocity + (1.0 - theta) * v_old)
-    if abs(position) <= piston.limit:
+    if not abs(position) > piston.limit:
         return position, velocity, 0
     side = math.copysign(1.0, position)
     position = side * piston.limit

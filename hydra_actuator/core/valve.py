@@ -27,16 +27,22 @@ MOST_RING_PASSES = 40
 
 
 @formula
+def opening(displacement):
+    """Return the opening [m] of an edge, 0 while it overlaps; what is no number stays none."""
+    return 0.0 if displacement <= 0.0 else displacement
+
+
+@formula
 def edge_coefficients(valve, spool_1, spool_2, coefficient):
     """
     Write K' [m^3/(s sqrt(Pa))] of the four edges at two displacements [m] into `coefficient`.
 
     Spool 1 opens PA (+) and AT (-), spool 2 BT (+) and PB (-); one spool moves as both.
     """
-    coefficient[0] = valve.flow_gain[0] * max(0.0, spool_1 - valve.overlap[0])
-    coefficient[1] = valve.flow_gain[1] * max(0.0, -spool_2 - valve.overlap[1])
-    coefficient[2] = valve.flow_gain[2] * max(0.0, -spool_1 - valve.overlap[2])
-    coefficient[3] = valve.flow_gain[3] * max(0.0, spool_2 - valve.overlap[3])
+    coefficient[0] = valve.flow_gain[0] * opening(spool_1 - valve.overlap[0])
+    coefficient[1] = valve.flow_gain[1] * opening(-spool_2 - valve.overlap[1])
+    coefficient[2] = valve.flow_gain[2] * opening(-spool_1 - valve.overlap[2])
+    coefficient[3] = valve.flow_gain[3] * opening(spool_2 - valve.overlap[3])
 
 
 @formula
@@ -187,7 +193,9 @@ def move_spool(valve, position, velocity, command):
     Second order with the exact transition of a held command (valve.transition, row-major 2 x 2
     for the deviation from the command), or ideal; then slew-rate and stroke limits.
     """
-    target = min(max(command, -valve.stroke), valve.stroke)
+    target = command
+    if abs(command) > valve.stroke:
+        target = math.copysign(valve.stroke, command)
     if valve.natural_frequency > 0.0:
         deviation = position - target
         moved = valve.transition[0] * deviation + valve.transition[1] * velocity
