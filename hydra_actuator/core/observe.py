@@ -72,10 +72,34 @@ def values_within(model, state, d, distance):
     node = min(max(int(cells), 0), state.last[d])
     i, f = model.start[d] + node, cells - node
     wave_p, wave_q = state.wave_p, state.wave_q
-    p = interpolate(wave_p[i - 1], wave_p[i], wave_p[i + 1], wave_p[i + 2], f, 1.0)
-    q = interpolate(wave_q[i - 1], wave_q[i], wave_q[i + 1], wave_q[i + 2], f, 1.0)
+    if model.moving[d] == 1 and node == state.last[d]:
+        reach = state.length[d] / model.spacing[d] - node
+        p = within_partial_cell(wave_p, i, node, (state.face_p[d], reach, f))
+        q = within_partial_cell(wave_q, i, node, (state.face_q[d, 0], reach, f))
+    else:
+        p = interpolate(wave_p[i - 1], wave_p[i], wave_p[i + 1], wave_p[i + 2], f, 1.0)
+        q = interpolate(wave_q[i - 1], wave_q[i], wave_q[i + 1], wave_q[i + 2], f, 1.0)
     pressure = pressure_of(0.5 * (p + q), model.wave_speed[d], model.bulk_modulus[d])
     return pressure, 0.5 * (p - q) * model.direction[d]
+
+
+@formula
+def within_partial_cell(values, last_node, cells, place):
+    """
+    Return a wave between the last whole node and the face, by the parabola through both and one.
+
+    place: (value at the face, its distance from the node, distance asked for), in cells. A point
+    beyond the face reads the face.
+    """
+    face_value, reach, distance = place
+    if distance >= reach:
+        return face_value
+    here = values[last_node]
+    rise = face_value - here
+    bend = 0.0
+    if cells >= 1:
+        bend = (rise - reach * (here - values[last_node - 1])) / (1.0 + reach)
+    return here + distance / reach * (rise + (distance - reach) * bend)
 
 
 @formula
