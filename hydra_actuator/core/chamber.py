@@ -18,11 +18,12 @@ from hydra_actuator.core.line import interpolate
 @formula
 def extend_to_face(values, last_node, cells, face_value, fraction):
     """
-    Fill two nodes beyond the last whole node of a chamber, using the face where it is far enough.
+    Fill three nodes beyond the last whole node, using the face where it is far enough.
 
     fraction s/dx [-]: from one half on the polynomial runs through the face and up to three
     whole nodes; below (a point close to the node would amplify rounding) through whole nodes
-    alone. Both ghosts lie on the same polynomial.
+    alone. All ghosts lie on the same polynomial.
+    A node that appears takes P from a sweep that reads the third.
     """
     here = values[last_node]
     d_2 = here - values[last_node - 1]
@@ -37,14 +38,16 @@ def extend_to_face(values, last_node, cells, face_value, fraction):
         twist = (d_2 - d_3) - (d_3 - d_4)
         values[last_node + 1] = here + (d_2 + (curve + twist))
         values[last_node + 2] = here + (2.0 * d_2 + (3.0 * curve + 4.0 * twist))
+        values[last_node + 3] = here + (3.0 * d_2 + (6.0 * curve + 10.0 * twist))
         return
-    # divided differences over the offsets 0, fraction, -1, -2, evaluated at 1 and 2
+    # divided differences over the offsets 0, fraction, -1, -2, evaluated at 1, 2 and 3
     first = (face_value - here) / fraction
     second = (first - d_2) / (fraction + 1.0)
     third = (second - 0.5 * (d_2 - d_3)) / (fraction + 2.0)
     gap = 1.0 - fraction
     values[last_node + 1] = here + (first + gap * (second + 2.0 * third))
     values[last_node + 2] = here + 2.0 * (first + (gap + 1.0) * (second + 3.0 * third))
+    values[last_node + 3] = here + 3.0 * (first + (gap + 2.0) * (second + 4.0 * third))
 
 
 @formula

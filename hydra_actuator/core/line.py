@@ -21,8 +21,8 @@ node is swept alike. Neglected: variation over the cross-section, frequency-depe
 
 from hydra_actuator.core.compilation import formula
 
-# Spare nodes before and after each domain. A moving face may need two.
-GHOSTS_BEFORE, GHOSTS_AFTER = 1, 2
+# Spare nodes before and after each domain. A moving face needs three.
+GHOSTS_BEFORE, GHOSTS_AFTER = 1, 3
 
 
 @formula
