@@ -19,7 +19,7 @@ from rclpy.executors import SingleThreadedExecutor
 PATIENCE = 240.0
 ANSWER = 10.0
 # The same kernels on a coarse mesh: the tests are about the node.
-COARSE = ('-p', 'solver.cells:=50')
+COARSE = ('-p', 'solver.cells:=100')
 
 
 @pytest.fixture
@@ -120,10 +120,18 @@ class Peer:
         return heard
 
     def publisher(self, message_type, topic):
-        """Return a publisher that its subscriber has found."""
+        """Return a publisher that has found a subscriber; that one may find it later still."""
         publisher = self.node.create_publisher(message_type, topic, 10)
         self.until(lambda: publisher.get_subscription_count() > 0)
         return publisher
+
+    def send(self, publisher, message, reached):
+        """Publish a message, again and again, until a condition holds."""
+        end = time.monotonic() + ANSWER
+        while not reached():
+            assert time.monotonic() < end, 'what was waited for did not happen'
+            publisher.publish(message)
+            self.spin(0.05)
 
     def until(self, reached, patience=ANSWER):
         """Spin until a condition holds; fail the test otherwise."""

@@ -4,7 +4,8 @@
 import math
 
 from hydra_actuator.ros.commands import CommandDesk, CommandRules, RejectedCommandError
-from hypothesis import given, strategies as st
+from hypothesis import given
+from hypothesis import strategies as st
 import pytest
 
 STROKE = 5e-4

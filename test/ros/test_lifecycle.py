@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The lifecycle of a real node: states, failures, signals, and what /diagnostics say meanwhile."""
+
+import os
+import signal
+import time
+
+from diagnostic_msgs.msg import DiagnosticArray
+from hydra_actuator import load_recording
+from lifecycle_msgs.msg import State, Transition
+from lifecycle_msgs.srv import ChangeState, GetState
+import numpy as np
+import pytest
+from rcl_interfaces.srv import SetParametersAtomically
+from rclpy.parameter import Parameter
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+
+PERIOD_NS = 1_000_000
+PARTS = ('Real time', 'Command', 'Solver', 'Recorder', 'Faults')
+ERROR = b'\x02'
+
+
+def state(peer):
+    return peer.call(GetState, '/actuator/get_state').current_state.id
+
+
+def transit(peer, transition):
+    return peer.call(
+        ChangeState, '/actuator/change_state', transition=Transition(id=transition)).success
+
+
+def next_statuses(peer, heard):
+    """Return the statuses of the next diagnostics by name, checking what holds for all."""
+    count = len(heard)
+    peer.until(lambda: len(heard) > count)
+    found = {one.name.removeprefix('/actuator: '): one for one in heard[-1].status}
+    assert tuple(sorted(found)) == tuple(sorted(PARTS))
+    assert all(one.hardware_id == '/actuator' for one in found.values())
+    assert all(one.level in (b'\x00', b'\x01', ERROR) for one in found.values())
+    return found
+
+
+def stamps(heard):
+    return np.array([one.header.stamp.sec * 10**9 + one.header.stamp.nanosec for one in heard])
+
+
+def test_every_state_speaks_and_only_the_active_one_publishes(node_process, peer):
+    node = node_process('-p', 'autostart:=false', active=False)
+    heard = peer.hear(DiagnosticArray, '/diagnostics')
+    states = peer.hear(JointState, '/joint_states')
+    assert next_statuses(peer, heard)['Solver'].message == 'unconfigured'
+    assert transit(peer, Transition.TRANSITION_CONFIGURE)
+    assert next_statuses(peer, heard)['Solver'].message == 'inactive'
+    assert not states
+    assert transit(peer, Transition.TRANSITION_ACTIVATE)
+    peer.until(lambda: len(states) > 50)
+    assert 'active: 1000 Hz, recording to ' in node.text
+    command = peer.publisher(Float64, '/actuator/spool_command')
+    peer.send(command, Float64(data=0.5), lambda: states[-1].position[1] > 0.0)
+
+    assert transit(peer, Transition.TRANSITION_DEACTIVATE)
+    assert next_statuses(peer, heard)['Solver'].message == 'inactive'
+    peer.spin(0.2)
+    before = len(states)
+    command.publish(Float64(data=0.7))
+    peer.spin(0.3)
+    assert len(states) == before
+
+    # Activated again: the state goes on, the command is 0, stamps follow the system time.
+    resumed = time.time_ns()
+    assert transit(peer, Transition.TRANSITION_ACTIVATE)
+    peer.until(lambda: len(states) > before + 50)
+    assert states[before].position[1] == 0.0
+    assert states[before].position[0] != 0.0
+    assert stamps(states)[before] >= resumed
+    assert np.all(np.diff(stamps(states)) >= PERIOD_NS)
+    recording = node.recording
+    assert transit(peer, Transition.TRANSITION_DEACTIVATE)
+    assert transit(peer, Transition.TRANSITION_CLEANUP)
+    assert load_recording(recording).finished
+    assert next_statuses(peer, heard)['Recorder'].message == 'not recording'
+
+    # Configured again: a new actuator, a new recording, topics declared anew.
+    assert transit(peer, Transition.TRANSITION_CONFIGURE)
+    assert transit(peer, Transition.TRANSITION_ACTIVATE)
+    before = len(states)
+    peer.until(lambda: len(states) > before + 20)
+    assert node.recording != recording
+    assert transit(peer, Transition.TRANSITION_ACTIVE_SHUTDOWN)
+    assert next_statuses(peer, heard)['Solver'].message == 'finalized'
+    code, took = node.end()
+    assert (code, took < 2.0) == (0, True)
+
+
+def test_an_invalid_transition_is_answered_and_survived(node_process, peer):
+    node = node_process()
+    for transition in (Transition.TRANSITION_ACTIVATE, Transition.TRANSITION_CONFIGURE,
+                       Transition.TRANSITION_CLEANUP, 99):
+        assert not transit(peer, transition)
+        assert state(peer) == State.PRIMARY_STATE_ACTIVE
+    assert not peer.call(
+        ChangeState, '/actuator/change_state', transition=Transition(label='no_such')).success
+    assert state(peer) == State.PRIMARY_STATE_ACTIVE
+    assert node.end()[0] == 0
+
+
+@pytest.mark.parametrize('assignment, culprit', [
+    ('valve.strok:=0.001', 'valve.strok'),
+    ('valve.stroke:=-1.0', 'valve.stroke = -1.0'),
+    ('use_sim_time:=true', 'follow_clock'),
+    ('recording.directory:=/proc/nowhere', '/proc/nowhere'),
+])
+def test_a_failed_configure_leaves_a_living_node_that_says_why(
+        node_process, peer, assignment, culprit):
+    node = node_process('-p', assignment, active=False)
+    heard = peer.hear(DiagnosticArray, '/diagnostics')
+    node.wait_for_line('cannot configure')
+    solver = next_statuses(peer, heard)['Solver']
+    while solver.level != ERROR:
+        solver = next_statuses(peer, heard)['Solver']
+    assert culprit in solver.message
+    assert culprit in node.text
+    assert 'Traceback' not in node.text
+    assert state(peer) == State.PRIMARY_STATE_UNCONFIGURED
+    assert not peer.node.count_publishers('/joint_states')
+    code, took = node.end(signal.SIGTERM)
+    assert (code, took < 2.0) == (0, True)
+
+
+def test_a_refused_parameter_set_right_lets_the_node_configure(node_process, peer):
+    node = node_process('-p', 'valve.stroke:=-1.0', active=False)
+    node.wait_for_line('cannot configure')
+    right = Parameter('valve.stroke', Parameter.Type.DOUBLE, 4e-4).to_parameter_msg()
+    assert peer.call(SetParametersAtomically, '/actuator/set_parameters_atomically',
+                     parameters=[right]).result.successful
+    assert transit(peer, Transition.TRANSITION_CONFIGURE)
+    assert transit(peer, Transition.TRANSITION_ACTIVATE)
+    assert 'stroke: 0.0004' in load_recording(node.recording).custom_data['parameters']
+    assert node.end()[0] == 0
+
+
+def test_a_broken_method_stops_the_outputs_and_is_named(node_process, peer):
+    node = node_process('-p', 'solver.max_mach:=0.0015')
+    heard = peer.hear(DiagnosticArray, '/diagnostics')
+    states = peer.hear(JointState, '/joint_states')
+    command = peer.publisher(Float64, '/actuator/spool_command')
+    peer.send(command, Float64(data=1.0), lambda: 'stopped: ' in node.text)
+    peer.until(lambda: state(peer) == State.PRIMARY_STATE_UNCONFIGURED)
+    solver = next_statuses(peer, heard)['Solver']
+    assert solver.level == ERROR
+    assert 'solver.max_mach' in solver.message
+    peer.spin(0.2)
+    silent = len(states)
+    peer.spin(0.2)
+    assert len(states) == silent
+    recording = load_recording(node.recording)
+    assert recording.finished
+    events = [status['message'] for message in recording.messages('/actuator/events')
+              for status in message['status']]
+    assert any('solver.max_mach' in event for event in events)
+    # It can begin anew.
+    assert transit(peer, Transition.TRANSITION_CONFIGURE)
+    assert transit(peer, Transition.TRANSITION_ACTIVATE)
+    assert node.end()[0] == 0
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_an_active_node_with_a_valid_recording(node_process, number):
+    node = node_process()
+    time.sleep(0.3)
+    code, took = node.end(number)
+    assert (code, took < 2.0) == (0, True)
+    recording = load_recording(node.recording)
+    assert recording.finished
+    assert len(recording.row_stamps) > 100
+    assert 'Traceback' not in node.text
+
+
+@pytest.mark.parametrize('delay', [0.2, 0.6, 1.0])
+def test_a_signal_during_start_up_ends_it_in_order(node_process, tmp_path, delay):
+    node = node_process(active=False)
+    _until_masked(node.popen.pid)
+    time.sleep(delay)
+    code, took = node.end(signal.SIGTERM)
+    assert (code, took < 2.0) == (0, True), node.text
+    assert all(load_recording(path).finished for path in tmp_path.iterdir())
+
+
+def test_a_signal_while_the_solver_compiles_ends_it_in_time(node_process, tmp_path):
+    node = node_process(
+        active=False, environment={'HYDRA_ACTUATOR_CACHE': str(tmp_path / 'cache')})
+    time.sleep(3.0)
+    assert node.popen.poll() is None
+    code, took = node.end(signal.SIGINT)
+    assert (code, took < 2.0) == (0, True)
+    assert 'active: ' not in node.text
+
+
+def _until_masked(pid):
+    """Wait until a process has taken the signals; the interpreter's own start comes before."""
+    end = time.monotonic() + 20.0
+    while time.monotonic() < end:
+        status = open(f'/proc/{pid}/status').read()
+        mask = int(next(line for line in status.splitlines() if 'SigBlk' in line).split()[1], 16)
+        if mask & (1 << (signal.SIGTERM - 1)):
+            return
+        time.sleep(0.005)
+    raise AssertionError('the signals were never taken')
+
+
+@pytest.mark.parametrize('text, words', [
+    ('a: [1\n b: 2', 'params file'),
+    ('/**:\n  ros__parameters:\n  - 1\n', 'params file'),
+])
+def test_a_file_that_ros_cannot_parse_ends_in_one_line_and_code_2(
+        demo_process, tmp_path, text, words):
+    path = tmp_path / 'bad.yaml'
+    path.write_text(text)
+    node = demo_process('node', '--ros-args', '--params-file', path)
+    assert node.popen.wait(30.0) == 2
+    own = [line for line in node.text.splitlines() if line.startswith('hydra_actuator node: ')]
+    assert len(own) == 1
+    assert words in own[0] and str(path) in own[0]
+    assert 'Traceback' not in node.text
+
+
+def test_security_that_the_middleware_lacks_is_refused_in_one_line(demo_process):
+    from hydra_actuator.ros.security import security_missing
+
+    node = demo_process('node', '--ros-args', '-p', 'autostart:=false',
+                        environment={'ROS_SECURITY_ENABLE': 'true'})
+    if security_missing():
+        assert node.popen.wait(30.0) == 2
+        own = [line for line in node.text.splitlines() if 'hydra_actuator node: ' in line]
+        assert len(own) == 1 and 'ROS_SECURITY_ENABLE' in own[0]
+        assert 'Traceback' not in node.text
+    else:
+        time.sleep(2.0)
+        assert node.end()[0] in (0, 2)
+    assert os.environ.get('ROS_SECURITY_ENABLE') is None
+
+
+def test_arguments_that_are_not_for_ros_are_refused(demo_process):
+    node = demo_process('node', '--fast')
+    assert node.popen.wait(30.0) == 2
+    assert node.text.startswith('hydra_actuator node: ')
