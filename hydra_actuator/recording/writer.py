@@ -157,7 +157,7 @@ def _make_directory(directory: Path) -> list[Path]:
     try:
         str(directory).encode()
     except UnicodeEncodeError:
-        raise RecordingError(f'{directory} cannot be made: its name is not UTF-8') from None
+        raise RecordingError(f'{str(directory)!r} cannot be made: not UTF-8') from None
     missing = [path for path in (directory, *directory.parents) if not os.path.lexists(path)]
     try:
         directory.parent.mkdir(parents=True, exist_ok=True)
