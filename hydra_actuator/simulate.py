@@ -21,7 +21,7 @@ from typing import NamedTuple, Protocol
 from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.channels import Channels
 from hydra_actuator.errors import InputError
-from hydra_actuator.interruption import HeldInterrupt
+from hydra_actuator.interruption import Interruption
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.recording.messages import float64, float64_multi_array
 from hydra_actuator.recording.reader import load_recording
@@ -94,16 +94,17 @@ def simulate(parameters: Parameters | None = None, command: Signal | None = None
         raise InputError(f'duration {duration!r} is not a time of zero or more seconds')
     if rate is not None and not 0.0 < rate < math.inf:
         raise InputError(f'rate {rate!r} is not a positive frequency in Hz')
-    actuator = Actuator(parameters)
-    run = _Run(actuator, Hold() if command is None else command, rate)
-    steps = math.ceil(duration / actuator.step_time - 1e-6)
-    with HeldInterrupt() as interrupt, ExitStack() as closing:
+    with Interruption() as interruption, ExitStack() as closing:
+        actuator = Actuator(parameters)
+        run = _Run(actuator, Hold() if command is None else command, rate)
+        steps = math.ceil(duration / actuator.step_time - 1e-6)
+        interruption.hold()
         sink = _Rows() if output is None else _Recording(actuator, output)
         closing.callback(sink.close)
         for step in run.outputs(steps, sink):
-            interrupt.raise_if_asked()
+            interruption.raise_if_asked()
             if progress is not None:
-                progress(step / max(steps, 1))
+                progress(step / steps)
     if output is not None:
         return Simulation(actuator.channels, Path(output))
     rows = np.array(sink.rows).reshape(-1, actuator.channels.width)

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ctrl-C waits for the end of a piece of work, and is never lost."""
 
+from contextlib import suppress
+import ctypes
 import signal
+import sys
 import threading
 
 from hydra_actuator import interruption
-from hydra_actuator.interruption import HeldInterrupt
+from hydra_actuator.interruption import Interruption
 import pytest
 
 
@@ -15,7 +18,8 @@ def interrupt():
 
 def test_an_interrupt_waits_until_it_is_asked_for():
     done = []
-    with pytest.raises(KeyboardInterrupt), HeldInterrupt() as held:
+    with pytest.raises(KeyboardInterrupt), Interruption() as held:
+        held.hold()
         held.raise_if_asked()
         interrupt()
         done.append('rest of the piece')
@@ -26,21 +30,24 @@ def test_an_interrupt_waits_until_it_is_asked_for():
 
 def test_an_interrupt_nobody_asked_for_comes_at_the_end_of_the_block():
     done = []
-    with pytest.raises(KeyboardInterrupt), HeldInterrupt():
+    with pytest.raises(KeyboardInterrupt), Interruption() as held:
+        held.hold()
         interrupt()
         done.append('closed')
     assert done == ['closed']
 
 
 def test_an_error_is_not_hidden_by_an_interrupt():
-    with pytest.raises(ZeroDivisionError), HeldInterrupt():
+    with pytest.raises(ZeroDivisionError), Interruption() as held:
+        held.hold()
         interrupt()
-        1 / 0
+        raise ZeroDivisionError
 
 
 def test_a_second_interrupt_is_held_at_once_but_not_for_long(monkeypatch):
     done = []
-    with pytest.raises(KeyboardInterrupt), HeldInterrupt():
+    with pytest.raises(KeyboardInterrupt), Interruption() as held:
+        held.hold()
         interrupt()
         interrupt()
         done.append('both held')
@@ -50,8 +57,45 @@ def test_a_second_interrupt_is_held_at_once_but_not_for_long(monkeypatch):
     assert done == ['both held']
 
 
+def test_before_the_hold_an_interrupt_comes_at_once():
+    done = []
+    with pytest.raises(KeyboardInterrupt), Interruption():
+        interrupt()
+        done.append('too far')
+    assert done == []
+
+
+def test_an_interrupt_that_was_swallowed_comes_at_the_hold():
+    done = []
+    with pytest.raises(KeyboardInterrupt), Interruption() as held:
+        with suppress(KeyboardInterrupt):
+            interrupt()
+        held.hold()
+        done.append('too far')
+    assert done == []
+
+
+def test_an_interrupt_that_became_an_error_is_an_interrupt():
+    with pytest.raises(KeyboardInterrupt), Interruption():
+        try:
+            interrupt()
+        except KeyboardInterrupt:
+            raise RuntimeError from None
+
+
+def test_a_callback_from_c_that_swallows_an_interrupt_does_so_in_silence(monkeypatch):
+    reported = []
+    monkeypatch.setattr(sys, 'unraisablehook', lambda told: reported.append(told.exc_type))
+    callback = ctypes.CFUNCTYPE(ctypes.c_int)
+    with pytest.raises(KeyboardInterrupt), Interruption() as held:
+        callback(lambda: 1 // 0)()
+        callback(interrupt)()
+        held.hold()
+    assert reported == [ZeroDivisionError]
+
+
 def test_python_has_its_own_handler_back_afterwards():
-    with HeldInterrupt():
+    with Interruption():
         assert signal.getsignal(signal.SIGINT) is not signal.default_int_handler
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
@@ -60,7 +104,7 @@ def test_python_has_its_own_handler_back_afterwards():
 def test_a_foreign_handler_is_left_alone(handler):
     before = signal.signal(signal.SIGINT, handler)
     try:
-        with HeldInterrupt():
+        with Interruption():
             assert signal.getsignal(signal.SIGINT) is handler
         assert signal.getsignal(signal.SIGINT) is handler
     finally:
@@ -71,7 +115,7 @@ def test_another_thread_than_the_main_one_can_enter():
     entered = []
 
     def work():
-        with HeldInterrupt() as held:
+        with Interruption() as held:
             held.raise_if_asked()
             entered.append(True)
 
