@@ -30,7 +30,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help='of the built-in commands, 1 is full spool (default 1)')
     parser.add_argument('--duration', type=float, metavar='T',
                         help='[s]; default: the CSV to its end, else 1')
-    parser.add_argument('--rate', type=float, metavar='HZ', help='of states and pressures; once a step at most')
+    parser.add_argument('--rate', type=float, metavar='HZ',
+                        help='of states and pressures, at most one per step')
     parser.add_argument('-o', '--output', required=True, metavar='OUT',
                         help='directory of the new recording')
 
