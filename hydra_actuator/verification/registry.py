@@ -3,8 +3,12 @@
 
 from hydra_actuator.verification import (
     budget,
+    cell_crossing,
     conservation,
+    free_stream,
     grid,
+    mirror,
+    moving_wall,
     oil_column,
     passes,
     spool_response,
@@ -16,6 +20,10 @@ CASES: dict[str, Case] = {
     **waves.CASES,
     **conservation.CASES,
     **budget.CASES,
+    **moving_wall.CASES,
+    **free_stream.CASES,
+    **cell_crossing.CASES,
+    **mirror.CASES,
     **oil_column.CASES,
     **spool_response.CASES,
     **passes.CASES,
