@@ -32,6 +32,7 @@ ROOMS = {
     'recording': ({'recording', 'hydra_actuator'}, {'numpy', 'mcap', 'lz4', 'zstandard', 'yaml'}),
     'analysis': ({'analysis', 'recording', 'parameters'}, {'numpy', 'plotly', 'matplotlib'}),
     'pacer': (set(), set()),
+    'interruption': (set(), set()),
     'verification': (
         {'verification', 'core', 'kernels', 'assembly', 'actuator', 'simulate', 'parameters'},
         {'numpy', 'scipy'},

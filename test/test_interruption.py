@@ -12,6 +12,14 @@ from hydra_actuator.interruption import Interruption
 import pytest
 
 
+@pytest.fixture(autouse=True)
+def python_handler():
+    """Have Python's own handler, which a process started in the background has not."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def interrupt():
     signal.raise_signal(signal.SIGINT)
 
@@ -102,13 +110,10 @@ def test_python_has_its_own_handler_back_afterwards():
 
 @pytest.mark.parametrize('handler', [signal.SIG_IGN, lambda *_: None])
 def test_a_foreign_handler_is_left_alone(handler):
-    before = signal.signal(signal.SIGINT, handler)
-    try:
-        with Interruption():
-            assert signal.getsignal(signal.SIGINT) is handler
+    signal.signal(signal.SIGINT, handler)
+    with Interruption():
         assert signal.getsignal(signal.SIGINT) is handler
-    finally:
-        signal.signal(signal.SIGINT, before)
+    assert signal.getsignal(signal.SIGINT) is handler
 
 
 def test_another_thread_than_the_main_one_can_enter():

@@ -190,6 +190,15 @@ def test_a_run_that_breaks_off_leaves_a_finished_recording_of_all_before(tmp_pat
     assert recording.end_ns < 0.1e9
 
 
+@pytest.fixture
+def python_handler():
+    """Have Python's own handler, which a process started in the background has not."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures('python_handler')
 def test_an_interrupt_leaves_a_finished_recording_of_all_before(tmp_path):
     def impatient(times):
         if times[0] > 0.01:
