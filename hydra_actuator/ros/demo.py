@@ -118,9 +118,10 @@ def _drive(node: subprocess.Popen, log, duration: float, progress: Progress) -> 
             run = DemoRun(Path(), 0, 0, time.monotonic() - begin)
             sender.start()
             _watch(node, log, duration, progress)
-            sender.stop()
-            time.sleep(0.2)
         finally:
+            sender.stop()
+            # What is under way arrives.
+            time.sleep(0.2)
             listener.stop()
         run.sent, run.heard, run.errors = sender.sent, listener.heard, listener.errors
         own.destroy_node()

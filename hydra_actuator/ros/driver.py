@@ -90,8 +90,10 @@ class SineSender:
         self._thread.start()
 
     def stop(self) -> None:
-        """End the sine with a centred spool."""
+        """End the sine with a centred spool; nothing if it has not begun."""
         self._stopping = True
+        if not self._thread.is_alive():
+            return
         self._thread.join()
         self._publisher.publish(float64(0.0))
 
