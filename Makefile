@@ -8,7 +8,7 @@ BIN := .venv/bin
 # already put their libraries on LD_LIBRARY_PATH.
 unexport PYTHONPATH PYTHONHOME AMENT_PREFIX_PATH LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: demo test soak bench venv clean
+.PHONY: demo test soak bench picture venv clean
 
 demo: venv
 	$(BIN)/hydra_actuator demo
@@ -23,6 +23,14 @@ soak: venv
 
 bench: venv
 	$(BIN)/hydra_actuator bench
+
+# The README's picture.
+picture: venv
+	rm -rf build/picture
+	$(BIN)/hydra_actuator simulate --config docs/picture.yaml --sine 50 --duration 0.4 --rate 10000 \
+	  -o build/picture
+	$(BIN)/python -c "from hydra_actuator.analysis.picture import write_picture; \
+	  write_picture('build/picture', 'docs/run.png')"
 
 venv: .venv/installed
 
