@@ -23,6 +23,7 @@ VERBS = {
     'simulate': 'an offline run, as fast as possible, into a recording',
     'report': 'one self-contained page about a recording',
     'info': 'what a recording holds',
+    'verify': 'the solver against exact solutions and conservation laws',
     'bench': 'speed of the solver',
 }
 
