@@ -24,6 +24,9 @@ A, B, I, J = range(4)
 SOURCES = (A, A, B, I)
 SINKS = (B, I, J, J)
 MOST_RING_PASSES = 40
+# At zero flow an open edge has no slope, and a flow around the ring meets no resistance: this
+# part of the impedances keeps the matrix regular. It steers the steps, not where they end.
+FIRMNESS = 1e-9
 
 
 @formula
@@ -156,7 +159,9 @@ def newton_direction(impedance, defect, slope, coefficient, leakage):
     d_0, d_1, d_2, d_3 = z_a + z_b, z_a + z_i, z_b + z_j, z_i + z_j
     m_01, m_02, m_13, m_23 = z_a, -z_b, -z_i, z_j
     r_0, r_1, r_2, r_3 = defect
-    d_0, d_1, d_2, d_3 = d_0 + slope[0], d_1 + slope[1], d_2 + slope[2], d_3 + slope[3]
+    least = FIRMNESS * (z_a + z_b + z_i + z_j)
+    d_0, d_1 = d_0 + (slope[0] + least), d_1 + (slope[1] + least)
+    d_2, d_3 = d_2 + (slope[2] + least), d_3 + (slope[3] + least)
     if leakage == 0.0:
         if coefficient[0] == 0.0:
             m_01, m_02, r_0 = 0.0, 0.0, 0.0
