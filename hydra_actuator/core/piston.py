@@ -19,9 +19,11 @@ import math
 
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.fluid import end_relation, relative_compression
-from hydra_actuator.core.orifice import settled, VELOCITY_TOLERANCE
+from hydra_actuator.core.orifice import settled
 
 MOST_PASSES = 60
+# Of the oil's velocity through the seals over the wave speed: 1e-7 m/s in oil.
+LEAKAGE_TOLERANCE = 1e-10
 
 
 @formula
@@ -58,7 +60,7 @@ def leaking_velocities(ends, piston, velocity):
         # rho A (u - v) = rho0 q, with rho from the pressure of this pass
         v_1 = velocity + flow * end_1.inverse_area / (1.0 + p_1 / end_1.bulk_modulus)
         v_2 = -velocity - flow * end_2.inverse_area / (1.0 + p_2 / end_2.bulk_modulus)
-        if abs(change) * end_1.inverse_area * end_1.slowness < 1e-3 * VELOCITY_TOLERANCE:
+        if abs(change) * end_1.inverse_area * end_1.slowness < LEAKAGE_TOLERANCE:
             break
     return v_1, -v_2
 
@@ -143,7 +145,7 @@ def slide(ends, piston, motion, load_force, guess):
                 trial = 2.0 * velocity
         change = trial - velocity
         velocity = trial
-        if settled(ends[0], change):
+        if settled(velocity, change):
             break
     return velocity
 

@@ -32,7 +32,7 @@ def solve_flow_end(end, flow):
         _, q, _, flatness = end_relation(end, velocity)
         change = (flow - q) * flatness
         velocity += change
-        if settled(end, change):
+        if settled(velocity, change):
             break
     return velocity
 
@@ -95,7 +95,7 @@ def solve_accumulator(end, source, oil_stored, step_time):
             trial = 0.5 * (low + high)
         change = trial - velocity
         velocity = trial
-        if settled(end, change):
+        if settled(velocity, change):
             break
     q = end_relation(end, velocity)[1]
     return velocity, max(0.0, oil_stored + step_time * (source.max_flow + q))

@@ -90,7 +90,7 @@ def solve_valve(ends, velocity, valve_edges, ring):
         for k in range(4):
             change = (ring[4, k] - ring[2, k]) * ring[3, k]
             velocity[k] += change
-            done = done and settled(ends[k], change)
+            done = done and settled(velocity[k], change)
         if done:
             break
 
