@@ -60,6 +60,19 @@ def test_rest_lasts_a_minute():
     assert_at_rest(make(), 60_000)
 
 
+@pytest.mark.parametrize('leakage', [0.0, 1e-12])
+def test_underlapped_valve_starts_from_rest_and_settles(leakage):
+    actuator = make(valve__leakage=leakage, tank__pressure=0.0, **{
+        f'valve__overlap_{edge}': -2e-5 for edge in ('pa', 'pb', 'at', 'bt')})
+    state = actuator.advance(0.3)
+    # half of the edges' area on each side of equal chambers: the piston stays by symmetry
+    assert state.position == pytest.approx(0.0, abs=1e-12)
+    across = 0.62 * 0.03 * 2e-5 * math.sqrt(2.0 * 10.5e6 / 860.0) + leakage * 10.5e6
+    area = math.pi / 4.0 * 0.016 ** 2
+    ratio = 1.0 + 21e6 / 1.4534e9
+    assert state.flow_velocity['A'] * area * ratio == pytest.approx(2.0 * across, rel=1e-3)
+
+
 def test_unbalanced_piston_does_not_rest():
     worst = largest_departure(make(initial__pressure_1=10.6e6), 100)
     assert worst[Channels.POSITION] > 1e-6
