@@ -216,8 +216,12 @@ class ParameterDoor:
         own = {change.name: plain(change) for change in changes if change.name in self.table}
         if 'sections.names' in own:
             self._declare_sections()
-        if own:
+        if not own:
+            return
+        try:
             self.on_change(own)
+        except Exception as error:
+            self._node.get_logger().error(f'parameters {sorted(own)} did not act: {error!r}')
 
     def _declare_sections(self) -> None:
         """Declare what sections bring along that were named after the start."""

@@ -14,6 +14,8 @@ import numpy as np
 # Share of the ticks that must be there, of each topic.
 COMPLETE = 0.995
 REAL_TIME = 0.005
+# Best effort at depth 1 keeps the last of the commands that come together on a busy machine.
+ARRIVED = 0.5
 # A full-stroke sine moves the piston by far more than this [m].
 LEAST_STROKE = 1e-3
 PERIOD_NS = 1_000_000
@@ -36,7 +38,8 @@ def summarise(run: DemoRun) -> Summary:
     """Look at what a run left behind."""
     recording = load_recording(run.recording)
     figures = _real_time(recording)
-    lines, failed = [], []
+    lines: list[tuple[str, str]] = [('node up after', f'{run.start_time:.1f} s')]
+    failed: list[str] = []
     if run.exit_code:
         failed.append(f'the node ended with code {run.exit_code}')
     if not recording.finished:
@@ -124,7 +127,7 @@ def _heard(run: DemoRun, recording: Recording) -> Summary:
         summary.count for name, summary in recording.topics.items()
         if name.endswith('/spool_command'))
     lines.append(('commands sent, received', f'{run.sent}, {received}'))
-    if received < 0.9 * run.sent:
+    if received < ARRIVED * run.sent:
         failed.append(f'{received} of {run.sent} commands arrived')
     return Summary(lines, failed)
 

@@ -7,7 +7,7 @@ tick goes first: a controller waits for it. The log time of a message is the ins
 state, its publish time the one at which the batch was taken from the ring.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 import math
 import threading
 import time
@@ -53,7 +53,6 @@ class Outputs:
     ):
         self.on_error: Callable[[BaseException], None] = lambda error: None
         self.after_batch: Callable[[], None] = lambda: None
-        self.published = 0
         self.encoder: TickEncoder | None = None
         self._ring = ring
         self._topics = topics
@@ -120,7 +119,6 @@ class Outputs:
             self._publish(self._topics.field, data)
             recorded.append((self._topics.field, frame.stamp, now, data))
         if recorded:
-            self.published += len(recorded)
             self._put_batch(recorded)
         self.after_batch()
 
@@ -129,23 +127,20 @@ class Outputs:
         if publish is not None:
             publish(data)
 
-    def _messages(self, tick: Tick) -> list[tuple[str, int, bytes]]:
-        """Return (topic, log time, message) of a tick, the joint state first."""
+    def _messages(self, tick: Tick) -> Iterator[tuple[str, int, bytes]]:
+        """Yield (topic, log time, message) of a tick, each encoded when its turn comes."""
         number, stamp, row, encoder = tick.number, tick.stamp, tick.row, self.encoder
-        encoded = []
         if self._joint_states.due(number):
-            encoded.append(
-                (self._topics.joint_states, stamp, encoder.joint_state(row, stamp)))
+            yield self._topics.joint_states, stamp, encoder.joint_state(row, stamp)
         if self._pressures.due(number):
-            encoded += [
-                (topic, stamp, data) for topic, data in encoder.pressures(row, stamp)]
+            for topic, data in encoder.pressures(row, stamp):
+                yield topic, stamp, data
         if self._sections.due(number):
-            encoded.append((self._topics.sections, stamp, encoder.sections(row, stamp)))
+            yield self._topics.sections, stamp, encoder.sections(row, stamp)
         if self._clock.due(number):
-            encoded.append((self._topics.clock, stamp, messages.clock(stamp)))
+            yield self._topics.clock, stamp, messages.clock(stamp)
         if tick.inputs != self._last_inputs:
-            encoded.append(self._encode_inputs(tick))
-        return encoded
+            yield self._encode_inputs(tick)
 
     def _encode_inputs(self, tick: Tick) -> tuple[str, int, bytes]:
         """Return what the solver took, at the instant from which it held."""

@@ -66,11 +66,6 @@ class Plant:
         """Tell whether ticks are under way."""
         return self._thread is not None
 
-    @property
-    def stamp(self) -> int:
-        """Stamp [ns] of the newest row; 0 before the first."""
-        return self._stamp
-
     def start(self) -> None:
         """Begin ticking; the first start puts the initial state into the ring."""
         self.failure = ''

@@ -193,6 +193,8 @@ class Rig:
             Watched('Command', warn, 'messages dropped', lambda: self.desk.rejections),
             Watched('Command', warn, 'silence', lambda: self.setpoint.timeouts),
             Watched('Solver', warn, 'end stop hit', lambda: self.actuator.stop_hits),
+            Watched('Recorder', statuses.ERROR, 'recording broke off',
+                    lambda: int(bool(self.recorder.error))),
         ]
 
     def _open_recording(self) -> None:

@@ -14,6 +14,10 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 def take_signals() -> None:
     """Block the signals in this thread and in those it starts; they wait to be collected."""
+    for number in SIGNALS:
+        # A shell ignores SIGINT for what it starts in the background, and an ignored signal
+        # does not wait: it needs a handler, which is never called.
+        signal.signal(number, lambda *_: None)
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Real nodes in real processes on a domain of their own, and a peer that speaks to them."""
 
+from collections.abc import Sequence
 import os
 from pathlib import Path
 import re
@@ -11,9 +12,11 @@ import tempfile
 import time
 
 from hydra_actuator.ros.domain import loopback_environment, own_domain
+from hydra_actuator.ros.reception import Reception
 import pytest
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.serialization import deserialize_message
 
 # A machine under load, or a first start that compiles.
 PATIENCE = 240.0
@@ -38,12 +41,13 @@ def domain(monkeypatch):
 class Process:
     """`hydra_actuator VERB ...` in a process of its own."""
 
-    def __init__(self, *arguments, environment=None):
+    def __init__(self, *arguments, environment=None, interrupts=signal.SIG_DFL):
         self._log = tempfile.TemporaryFile()
         self.popen = subprocess.Popen(
             [sys.executable, '-m', 'hydra_actuator', *map(str, arguments)],
             stdin=subprocess.DEVNULL, stdout=self._log, stderr=self._log,
-            env={**os.environ, **(environment or {})}, cwd=Path(__file__).parents[2])
+            env={**os.environ, **(environment or {})}, cwd=Path(__file__).parents[2],
+            preexec_fn=lambda: signal.signal(signal.SIGINT, interrupts))
 
     @property
     def text(self):
@@ -105,6 +109,24 @@ def node_process(demo_process, tmp_path):
     return start
 
 
+class Heard(Sequence):
+    """The messages of a topic, read when looked at: listening at 1 kHz must cost little."""
+
+    def __init__(self, message_type):
+        self._type = message_type
+        self._received = []
+
+    def take(self, data, received, sent):
+        """Take a message as bytes."""
+        self._received.append(data)
+
+    def __len__(self):
+        return len(self._received)
+
+    def __getitem__(self, index):
+        return deserialize_message(self._received[index], self._type)
+
+
 class Peer:
     """A node of the test: calls services, keeps what it hears."""
 
@@ -112,11 +134,16 @@ class Peer:
         self.node = rclpy.create_node('peer', context=context)
         self._executor = SingleThreadedExecutor(context=context)
         self._executor.add_node(self.node)
+        self._receptions = []
+        self._clients = {}
 
     def hear(self, message_type, topic, depth=1000):
-        """Return a list that fills with the messages of a topic."""
-        heard = []
-        self.node.create_subscription(message_type, topic, heard.append, depth)
+        """Return a sequence that fills with the messages of a topic."""
+        heard = Heard(message_type)
+        reception = Reception(self.node, lambda error: None)
+        reception.subscribe(message_type, topic, heard.take, qos_profile=depth)
+        reception.start()
+        self._receptions.append(reception)
         return heard
 
     def publisher(self, message_type, topic):
@@ -148,15 +175,18 @@ class Peer:
 
     def call(self, service_type, name, **fields):
         """Call a service and return its answer."""
-        client = self.node.create_client(service_type, name)
+        client = self._clients.get(name)
+        if client is None:
+            client = self._clients[name] = self.node.create_client(service_type, name)
         self.until(client.service_is_ready)
         future = client.call_async(service_type.Request(**fields))
         self.until(future.done)
-        self.node.destroy_client(client)
         return future.result()
 
     def close(self):
         """Give the node up."""
+        for reception in self._receptions:
+            reception.stop()
         self._executor.shutdown()
         self.node.destroy_node()
 

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.parameter import Parameter
+from rclpy.qos import ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 from rosbags.highlevel import AnyReader
 from sensor_msgs.msg import FluidPressure, JointState
@@ -62,9 +63,9 @@ def test_a_sine_over_dds_comes_back_as_motion_and_is_recorded_whole(node_process
     pressures = peer.hear(FluidPressure, '/actuator/pressure/E')
     command = peer.publisher(Float64, '/actuator/spool_command')
     peer.until(lambda: states and pressures)
-    for k in range(500):
+    for k in range(300):
         command.publish(Float64(data=math.sin(2.0 * math.pi * k / 50.0)))
-        peer.spin(2e-3)
+        time.sleep(2e-3)
     assert node.end()[0] == 0
 
     first = states[0]
@@ -214,11 +215,16 @@ def test_live_parameters_act_and_are_recorded_others_are_refused_while_active(
     assert not refused.successful
     assert set_parameter(peer, 'supply.pressure', Parameter.Type.INTEGER, 18_000_000).successful
     peer.until(lambda: abs(states[-1].fluid_pressure - 18e6 - 101325.0) < 1.0)
+    joints = peer.hear(JointState, '/joint_states')
+    peer.until(lambda: joints and joints[-1].name == ['piston', 'valve'])
+    assert set_parameter(
+        peer, 'command.piston_joint', Parameter.Type.STRING, 'rod').successful
+    peer.until(lambda: joints[-1].name == ['rod', 'valve'])
     node.end()
     recording = load_recording(node.recording)
     events = list(recording.messages('/parameter_events'))
     assert [one['name'] for event in events for one in event['changed_parameters']] == [
-        'supply.pressure']
+        'supply.pressure', 'command.piston_joint']
 
 
 def test_pause_step_reset_and_resume(node_process, peer):
@@ -266,9 +272,12 @@ def test_emergency_stop_centres_the_valve_and_drains_the_supply(node_process, pe
     node.end()
 
 
-def test_recordings_end_and_begin_on_request_and_never_meet(node_process, peer):
-    node = node_process()
+def test_recordings_end_and_begin_on_request_and_qos_overrides_hold(node_process, peer):
+    override = 'qos_overrides./joint_states.publisher.reliability:=best_effort'
+    node = node_process('-p', override)
     peer.until(lambda: peer.node.count_publishers('/joint_states'))
+    offered, = peer.node.get_publishers_info_by_topic('/joint_states')
+    assert offered.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT
     first = node.recording
     assert peer.call(SetBool, '/actuator/record', data=False).success
     assert load_recording(first).finished
