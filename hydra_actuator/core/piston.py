@@ -22,8 +22,8 @@ from hydra_actuator.core.fluid import end_relation, relative_compression
 from hydra_actuator.core.orifice import settled
 
 MOST_PASSES = 60
-# Of the oil's velocity through the seals over the wave speed: 1e-7 m/s in oil.
-LEAKAGE_TOLERANCE = 1e-10
+# Last change of the leaking flow, relative and, at balanced pressures, in m^3/s.
+LEAKAGE_TOLERANCE, NO_LEAKAGE = 1e-11, 1e-20
 
 
 @formula
@@ -60,7 +60,7 @@ def leaking_velocities(ends, piston, velocity):
         # rho A (u - v) = rho0 q, with rho from the pressure of this pass
         v_1 = velocity + flow * end_1.inverse_area / (1.0 + p_1 / end_1.bulk_modulus)
         v_2 = -velocity - flow * end_2.inverse_area / (1.0 + p_2 / end_2.bulk_modulus)
-        if abs(change) * end_1.inverse_area * end_1.slowness < LEAKAGE_TOLERANCE:
+        if abs(change) <= LEAKAGE_TOLERANCE * abs(flow) + NO_LEAKAGE:
             break
     return v_1, -v_2
 

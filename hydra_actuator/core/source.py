@@ -89,7 +89,10 @@ def solve_accumulator(end, source, oil_stored, step_time):
             low = velocity
         else:
             high = velocity
-        softness = (source.accumulator_volume - held) / (GAS_EXPONENT * (p + source.ambient))
+        softness = 0.0
+        if held > 0.0:
+            softness = (source.accumulator_volume - held) / (
+                GAS_EXPONENT * (p + source.ambient))
         trial = velocity + residual * flatness / (step_time + z * softness)
         if not low <= trial <= high:
             trial = 0.5 * (low + high)
