@@ -78,17 +78,25 @@ def cache_root() -> Path:
     return Path(base) / 'hydra_actuator'
 
 
-def cache_key(passes: int) -> str:
-    """Return the name of the directory that fits sources, versions and processor."""
+def digest_of_sources(folder: Path) -> str:
+    """Return a hash of the sources in a folder: their places, times and contents."""
     digest = hashlib.sha256()
-    for source in sorted(Path(hydra_actuator.core.__file__).parent.glob('*.py')):
+    for source in sorted(folder.glob('*.py')):
         digest.update(f'{source} {source.stat().st_mtime_ns}\n'.encode())
         digest.update(source.read_bytes())
-    about = (sys.version, numba.__version__, llvmlite.__version__, np.__version__,
+    return digest.hexdigest()
+
+
+# Of what this process runs: sources that change under it are another's.
+SOURCES = digest_of_sources(Path(hydra_actuator.core.__file__).parent)
+
+
+def cache_key(passes: int) -> str:
+    """Return the name of the directory that fits sources, versions and processor."""
+    about = (SOURCES, sys.version, numba.__version__, llvmlite.__version__, np.__version__,
              llvmlite.binding.get_host_cpu_name(),
              llvmlite.binding.get_host_cpu_features().flatten(), passes)
-    digest.update(repr(about).encode())
-    return digest.hexdigest()[:32]
+    return hashlib.sha256(repr(about).encode()).hexdigest()[:32]
 
 
 def is_intact(place: Path) -> bool:
