@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The kernel cache: warm starts compile nothing, and nothing stale or broken is ever used."""
+
+import os
+from pathlib import Path
+import shutil
+import subprocess
+import sys
+
+from hydra_actuator import kernels
+from hydra_actuator.actuator import Actuator
+import hydra_actuator.core
+import pytest
+
+REPOSITORY = Path(__file__).parents[1]
+PASSES = 2
+START = """
+import sys
+from hydra_actuator.actuator import Actuator
+from hydra_actuator.kernels import compilations
+actuator = Actuator()
+ready = compilations()
+state = actuator.advance(0.005, spool=0.5)
+print(ready, compilations(), state.position.hex())
+"""
+
+
+@pytest.fixture(scope='module')
+def compiled(tmp_path_factory) -> Path:
+    """Return a cache directory with the kernels of this version in it."""
+    Actuator()
+    root = tmp_path_factory.mktemp('kernels')
+    key = kernels.cache_key(PASSES)
+    shutil.copytree(kernels.cache_root() / key, root / key)
+    return root
+
+
+@pytest.fixture
+def cache(compiled, tmp_path) -> Path:
+    """Return a copy of that cache to spoil."""
+    return Path(shutil.copytree(compiled, tmp_path / 'cache'))
+
+
+def start(cache: Path) -> subprocess.Popen:
+    """Start a process that uses an actuator with its kernels in `cache`."""
+    environment = os.environ | {'HYDRA_ACTUATOR_CACHE': str(cache)}
+    return subprocess.Popen([sys.executable, '-c', START], cwd=REPOSITORY, env=environment,
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def finish(process: subprocess.Popen) -> tuple[int, int, str]:
+    """Return (kernels compiled at the start, until the end, position) of a started process."""
+    out, error = process.communicate(timeout=300)
+    assert process.returncode == 0, error
+    ready, total, position = out.split()
+    return int(ready), int(total), position
+
+
+def kernel_files(cache: Path) -> list[Path]:
+    return sorted(file for file in cache.rglob('*') if file.suffix in ('.nbc', '.nbi'))
+
+
+def position_here() -> str:
+    return Actuator().advance(0.005, spool=0.5).position.hex()
+
+
+def test_second_process_compiles_nothing_and_finds_the_same_bits(cache):
+    assert finish(start(cache)) == (0, 0, position_here())
+
+
+def truncate(file: Path) -> None:
+    file.write_bytes(file.read_bytes()[:len(file.read_bytes()) // 2])
+
+
+def flip_a_bit(file: Path) -> None:
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 1
+    file.write_bytes(content)
+
+
+def empty(file: Path) -> None:
+    file.write_bytes(b'')
+
+
+@pytest.mark.parametrize('spoil', [truncate, flip_a_bit, empty, Path.unlink])
+def test_a_spoiled_file_makes_the_whole_directory_unfit(cache, spoil):
+    place = cache / kernels.cache_key(PASSES)
+    assert kernels.is_intact(place)
+    for file in kernel_files(cache):
+        content = file.read_bytes()
+        spoil(file)
+        assert not kernels.is_intact(place), file.name
+        file.write_bytes(content)
+    assert kernels.is_intact(place)
+
+
+@pytest.mark.parametrize('manifest', ['', '{}', '[]', 'null', '{"a": "b"}', '{'])
+def test_a_spoiled_manifest_makes_the_directory_unfit(cache, manifest):
+    place = cache / kernels.cache_key(PASSES)
+    (place / kernels.MANIFEST).write_text(manifest)
+    assert not kernels.is_intact(place)
+
+
+def test_a_file_too_many_makes_the_directory_unfit(cache):
+    place = cache / kernels.cache_key(PASSES)
+    (place / 'more').write_text('of it')
+    assert not kernels.is_intact(place)
+
+
+def test_two_processes_at_once_replace_a_broken_cache(cache):
+    flip_a_bit(kernel_files(cache)[-1])
+    both = [start(cache), start(cache)]
+    for process in both:
+        ready, total, position = finish(process)
+        assert ready == total == len(kernels.KERNELS)
+        assert position == position_here()
+    assert kernels.is_intact(cache / kernels.cache_key(PASSES))
+    assert not list(cache.glob(f'{kernels.UNFINISHED}*'))
+    assert finish(start(cache)) == (0, 0, position_here())
+
+
+def test_without_a_writable_place_the_actuator_still_works(tmp_path, monkeypatch):
+    expected = position_here()
+    blocked = tmp_path / 'file'
+    blocked.write_text('not a directory')
+    monkeypatch.setenv('HYDRA_ACTUATOR_CACHE', str(blocked))
+    assert position_here() == expected
+    assert blocked.read_text() == 'not a directory'
+
+
+@pytest.fixture
+def core_elsewhere(tmp_path) -> Path:
+    """Return a copy of the kernels' sources."""
+    return Path(shutil.copytree(Path(hydra_actuator.core.__file__).parent, tmp_path / 'core'))
+
+
+def test_any_changed_or_added_source_changes_what_the_key_is_made_of(core_elsewhere):
+    digests = [kernels.digest_of_sources(core_elsewhere)]
+    assert kernels.digest_of_sources(core_elsewhere) == digests[0]
+    for source in sorted(core_elsewhere.glob('*.py')):
+        source.write_text(source.read_text() + '\n')
+        digests.append(kernels.digest_of_sources(core_elsewhere))
+    (core_elsewhere / 'new.py').write_text('')
+    digests.append(kernels.digest_of_sources(core_elsewhere))
+    assert len(set(digests)) == len(digests) > 10
+
+
+def test_sources_and_passes_are_in_the_key(monkeypatch):
+    before = kernels.cache_key(PASSES)
+    assert kernels.cache_key(PASSES + 1) != before
+    monkeypatch.setattr(kernels, 'SOURCES', 'other')
+    assert kernels.cache_key(PASSES) != before
+
+
+def test_the_key_is_that_of_the_sources_this_process_runs(core_elsewhere, monkeypatch):
+    before = kernels.cache_key(PASSES)
+    monkeypatch.setattr(hydra_actuator.core, '__file__', str(core_elsewhere / '__init__.py'))
+    assert kernels.cache_key(PASSES) == before
+
+
+def test_cache_lies_where_the_environment_says(monkeypatch, tmp_path):
+    monkeypatch.setenv('HYDRA_ACTUATOR_CACHE', str(tmp_path / 'own'))
+    assert kernels.cache_root() == tmp_path / 'own'
+    monkeypatch.delenv('HYDRA_ACTUATOR_CACHE')
+    monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path))
+    assert kernels.cache_root() == tmp_path / 'hydra_actuator'
+    monkeypatch.delenv('XDG_CACHE_HOME')
+    monkeypatch.setenv('HOME', str(tmp_path))
+    assert kernels.cache_root() == tmp_path / '.cache' / 'hydra_actuator'
