@@ -2,8 +2,8 @@
 """
 The full actuator against its own solution on finer grids: errors and orders of convergence.
 
-Position and the pressures of all twelve stations, each millisecond, on 100, 200 and 400 cells
-against 1600. Three commands: an offset sine, whose valve never crosses zero; a full-stroke sine,
+Position and the pressures of all twelve stations, each millisecond, on 100, 200, 400 and 800 cells
+against 3200. Three commands: an offset sine, whose valve never crosses zero; a full-stroke sine,
 whose valve reverses, with a kink in the flow through each edge at zero; a valve that closes
 in 0.5 ms. Commands are functions of time, evaluated at every step.
 """
@@ -18,8 +18,8 @@ from hydra_actuator.verification.case import Case, Row
 from hydra_actuator.verification.spool_response import soft_step
 import numpy as np
 
-CELLS = (100, 200, 400)
-REFERENCE = 1600
+CELLS = (100, 200, 400, 800)
+REFERENCE = 3200
 FREQUENCY = 50.0
 CLOSURE = 0.5e-3
 
