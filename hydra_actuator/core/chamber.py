@@ -12,28 +12,35 @@ node to face at arrival. Whole nodes appear and vanish as s leaves [0, dx).
 """
 
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.line import interpolate
+from hydra_actuator.core.line import interpolate, LONG
+
+# Of a cell: a face closer to the last whole node is left out of the polynomial beyond it. At one
+# half and more, the waves of a chamber of three cells grow; at 0.4 and less none does.
+NEAREST = 0.4
 
 
 @formula
-def extend_to_face(values, last_node, cells, face_value, fraction):
+def extend_to_face(values, last_node, cells, face, leaving):
     """
     Fill three nodes beyond the last whole node, using the face where it is far enough.
 
-    fraction s/dx [-]: from one half on the polynomial runs through the face and up to three
-    whole nodes; below (a point close to the node would amplify rounding) through whole nodes
-    alone. All ghosts lie on the same polynomial.
+    face: (value there, fraction s/dx [-] of its cell). From NEAREST on the polynomial runs
+    through the face and up to three whole nodes; below (a point close to the node would amplify
+    rounding) through whole nodes alone, in a short chamber as a parabola for the wave that is
+    leaving the face: see fill_ghost. All ghosts lie on the same polynomial.
     A node that appears takes P from a sweep that reads the third.
     """
+    face_value, fraction = face
     here = values[last_node]
     d_2 = here - values[last_node - 1]
     d_3, d_4 = d_2, d_2
     if cells >= 2:
         d_3 = values[last_node - 1] - values[last_node - 2]
         d_4 = d_3 + (d_3 - d_2)
-    if cells >= 3:
+    through_face = fraction >= NEAREST and cells >= 2
+    if cells >= LONG or (cells >= 3 and not leaving):
         d_4 = values[last_node - 2] - values[last_node - 3]
-    if fraction < 0.5 or cells < 2:
+    if not through_face:
         curve = d_2 - d_3
         twist = (d_2 - d_3) - (d_3 - d_4)
         values[last_node + 1] = here + (d_2 + (curve + twist))
@@ -79,18 +86,14 @@ def wave_at_face(waves, node, distance, mesh, third_order, guess):
 @formula
 def wave_from_face(history, returned, lag, third_order):
     """
-    Return Q [m/s] that left the face `lag` steps before the new level.
+    Return Q [m/s] that left the face `lag` steps before the new level, by a parabola in time.
 
-    returned: Q of the new level; history: of the three levels before.
+    returned: Q of the new level; history: of the levels before. A cubic over three levels before
+    lets chambers of three to twelve cells ring up.
     """
-    if third_order == 0.0:
-        return returned + lag * (history[0] - returned)
     d_1 = history[0] - returned
     d_2 = history[1] - history[0]
-    d_3 = history[2] - history[1]
-    second = 0.5 * (d_2 - d_1)
-    third = (d_3 - 2.0 * d_2 + d_1) * (1.0 / 6.0)
-    return returned + lag * (d_1 + (lag - 1.0) * (second + (lag - 2.0) * third))
+    return returned + lag * (d_1 + third_order * (lag - 1.0) * (0.5 * (d_2 - d_1)))
 
 
 @formula

@@ -15,11 +15,15 @@ arrival, for the slope and for u|u|: second order in time. u at the foot itself 
 linearly between its two neighbours: its error, theta (1 - theta) dx^2 u_xx / 2 with theta near
 one, enters only multiplied by u/c or lambda. A departure from the paper, whose net of
 characteristics runs freely: here all nodes share one dt.
-Values beyond the ends (ghosts) lie on the polynomial through the four nearest nodes, so every
-node is swept alike. Neglected: variation over the cross-section, frequency-dependent friction.
+Values beyond the ends (ghosts) lie on the polynomial through the nearest nodes, so every node is
+swept alike. Neglected: variation over the cross-section, frequency-dependent friction.
 """
 
 from hydra_actuator.core.compilation import formula
+
+# Cells from which on no wave grows with cubics at both ends, whatever the Courant number, the next
+# line and what the ends reflect; with a parabola none does in shorter lines either.
+LONG = 8
 
 # Spare nodes before and after each domain. A moving face needs three.
 GHOSTS_BEFORE, GHOSTS_AFTER = 1, 3
@@ -123,19 +127,22 @@ def arriving_wave(outgoing, returning, node, side, mesh, third_order, guess):
 
 
 @formula
-def fill_ghost(values, end, inward, cells):
+def fill_ghost(values, end, inward, cells, leaving):
     """
     Continue `values` one node beyond the node `end` by the polynomial through the inner nodes.
 
-    inward is the step (+1 or -1) towards the inside; the order drops below three cells. Written
-    in differences, so that a constant stays constant to the last bit.
+    inward is the step (+1 or -1) towards the inside. A cubic for the wave that arrives at the
+    end and, from LONG cells on, for the one that is leaving it; a parabola (still third-order
+    interpolation) for the latter in shorter lines, which would ring up with a cubic that looks
+    downstream alone. The order drops below three cells. Written in differences: a constant stays
+    constant to the last bit.
     """
     first, second = values[end], values[end + inward]
     slope = first - second
-    if cells >= 3:
+    if cells >= LONG or (cells >= 3 and not leaving):
         third, fourth = values[end + 2 * inward], values[end + 3 * inward]
         values[end - inward] = first + (3.0 * (slope - (second - third)) + (third - fourth))
-    elif cells == 2:
+    elif cells >= 2:
         values[end - inward] = first + (2.0 * slope - (second - values[end + 2 * inward]))
     else:
         values[end - inward] = first + slope

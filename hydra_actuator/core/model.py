@@ -183,6 +183,6 @@ def _empty_state(domains: int, nodes: int) -> State:
         end_wave=np.zeros(2 * domains), end_velocity=np.zeros(2 * domains),
         end_velocity_before=np.zeros(2 * domains), end_theta=np.zeros(2 * domains),
         face_p=np.zeros(domains),
-        face_q=np.zeros((domains, 4)), spool=np.zeros(4), edge_coefficient=np.zeros(4),
+        face_q=np.zeros((domains, 3)), spool=np.zeros(4), edge_coefficient=np.zeros(4),
         valve_velocity=np.zeros(4), ring=np.zeros((6, 4)), piston=np.zeros(1, PISTON_STATE),
         oil_stored=np.zeros(2), step=np.zeros(1, np.int64), fault=np.zeros(3))

@@ -89,7 +89,7 @@ class State(NamedTuple):
     end_velocity_before: np.ndarray  # (2 D,) the same one step ago
     end_theta: np.ndarray       # (2 D,) foot of the arriving wave [cells]
     face_p: np.ndarray          # (D,) P at a moving face
-    face_q: np.ndarray          # (D, 4) Q at a moving face now and one, two, three steps ago
+    face_q: np.ndarray          # (D, 3) Q at a moving face now, one and two steps ago
     spool: np.ndarray           # (4,) displacement, velocity of spool 1, of spool 2
     edge_coefficient: np.ndarray  # (4,) K' of the valve's edges
     valve_velocity: np.ndarray  # (4,) work: outflow at A, B, I, J

@@ -68,15 +68,15 @@ def continue_beyond_ends(model, state):
     for d in range(model.start.size):
         first, cells = model.start[d], state.last[d]
         last = first + cells
-        fill_ghost(state.wave_p, first, 1, cells)
-        fill_ghost(state.wave_q, first, 1, cells)
+        fill_ghost(state.wave_p, first, 1, cells, True)
+        fill_ghost(state.wave_q, first, 1, cells, False)
         if model.moving[d] == 1:
             fraction = state.old_length[d] / model.spacing[d] - cells
-            extend_to_face(state.wave_p, last, cells, state.face_p[d], fraction)
-            extend_to_face(state.wave_q, last, cells, state.face_q[d, 0], fraction)
+            extend_to_face(state.wave_p, last, cells, (state.face_p[d], fraction), False)
+            extend_to_face(state.wave_q, last, cells, (state.face_q[d, 0], fraction), True)
         else:
-            fill_ghost(state.wave_p, last, -1, cells)
-            fill_ghost(state.wave_q, last, -1, cells)
+            fill_ghost(state.wave_p, last, -1, cells, False)
+            fill_ghost(state.wave_q, last, -1, cells, True)
 
 
 @formula
@@ -130,7 +130,7 @@ def take_new_level(model, state, passes):
             if new_last >= 1 and new_last <= model.capacity[d]:
                 renew_last_nodes(model, state, d, new_last, passes)
                 state.last[d] = new_last
-            for k in range(3, 0, -1):
+            for k in range(2, 0, -1):
                 state.face_q[d, k] = state.face_q[d, k - 1]
             state.face_q[d, 0] = returned
             state.face_p[d] = state.end_wave[right]

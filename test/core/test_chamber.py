@@ -3,7 +3,12 @@
 
 import math
 
-from hydra_actuator.core.chamber import extend_to_face, wave_at_face, wave_from_face
+from hydra_actuator.core.chamber import (
+    extend_to_face,
+    NEAREST,
+    wave_at_face,
+    wave_from_face,
+)
 from hydra_actuator.core.model import Domain, Junction, Mesh
 from hydra_actuator.core.records import CLOSED, WALL
 from hydra_actuator.verification.chains import LoneChain
@@ -21,12 +26,12 @@ def polynomial(degree: int) -> np.polynomial.Polynomial:
     return np.polynomial.Polynomial([1.3, -0.7, 0.45, 0.21][:degree + 1])
 
 
-def extended(shape, cells: int, fraction: float) -> np.ndarray:
+def extended(shape, cells: int, fraction: float, leaving: bool = False) -> np.ndarray:
     """Return nodes from the last whole one's (cells)th neighbour on, ghosts filled."""
     values = np.full(LAST + 1 + GHOSTS, np.nan)
     offsets = np.arange(-cells, 1)
     values[LAST + offsets] = shape(offsets)
-    extend_to_face(values, LAST, cells, float(shape(fraction)), fraction)
+    extend_to_face(values, LAST, cells, (float(shape(fraction)), fraction), leaving)
     return values
 
 
@@ -39,6 +44,16 @@ def test_ghosts_continue_a_polynomial_of_the_stencils_order(cells, degree, fract
     assert values[LAST + ghosts] == pytest.approx(shape(ghosts), rel=1e-12)
 
 
+@pytest.mark.parametrize('fraction', [0.0, 0.2, 0.399])
+def test_a_wave_leaving_the_near_face_of_a_short_chamber_is_continued_as_a_parabola(fraction):
+    shape = polynomial(2)
+    ghosts = np.arange(1, GHOSTS + 1)
+    values = extended(shape, 5, fraction, leaving=True)
+    assert values[LAST + ghosts] == pytest.approx(shape(ghosts), rel=1e-12)
+    cubic = extended(polynomial(3), 5, fraction, leaving=True)
+    assert cubic[LAST + 1] != pytest.approx(polynomial(3)(1), rel=1e-3)
+
+
 @given(constants, st.integers(1, 5), st.floats(0.0, 0.999))
 def test_ghosts_keep_a_constant_to_the_bit(constant, cells, fraction):
     values = extended(lambda x: 0.0 * np.asarray(x) + constant, cells, fraction)
@@ -46,27 +61,27 @@ def test_ghosts_keep_a_constant_to_the_bit(constant, cells, fraction):
 
 
 @pytest.mark.parametrize('fraction', [1e-12, 1e-6, 0.3, 0.5, 0.9])
-def test_an_error_at_the_face_is_amplified_by_its_weight_at_mid_cell_at_most(fraction):
+def test_an_error_at_the_face_is_amplified_by_its_weight_where_nearest_at_most(fraction):
     clean = extended(polynomial(3), 4, fraction)
     values = clean.copy()
-    extend_to_face(values, LAST, 4, float(polynomial(3)(fraction)) + 1e-9, fraction)
-    # Lagrange's weight of the face at the third ghost, the face half a cell away
-    weight = (3.0 * 4.0 * 5.0) / (0.5 * 1.5 * 2.5)
+    extend_to_face(values, LAST, 4, (float(polynomial(3)(fraction)) + 1e-9, fraction), False)
+    # Lagrange's weight of the face at the third ghost, the face as near as it counts
+    weight = (3.0 * 4.0 * 5.0) / (NEAREST * (NEAREST + 1.0) * (NEAREST + 2.0))
     assert np.abs(values - clean)[LAST:].max() <= 1.001e-9 * weight
 
 
 @pytest.mark.parametrize('lag', [0.0, 0.2, 0.97, 1.5, 2.3])
-@pytest.mark.parametrize(('third_order', 'degree'), [(1.0, 3), (0.0, 1)])
+@pytest.mark.parametrize(('third_order', 'degree'), [(1.0, 2), (0.0, 1)])
 def test_path_of_the_face_is_exact_for_polynomials_in_time(lag, third_order, degree):
     shape = polynomial(degree)
-    history = np.append(shape(np.array([1.0, 2.0, 3.0])), np.nan)
+    history = np.append(shape(np.array([1.0, 2.0])), np.nan)
     assert wave_from_face(history, float(shape(0.0)), lag, third_order) == pytest.approx(
         shape(lag), rel=1e-12)
 
 
 @given(constants, st.floats(0.0, 1.5))
 def test_path_of_the_face_keeps_a_constant_to_the_bit(constant, lag):
-    assert wave_from_face(np.full(4, constant), constant, lag, 1.0) == constant
+    assert wave_from_face(np.full(3, constant), constant, lag, 1.0) == constant
 
 
 @pytest.mark.parametrize('distance', [0.0, 0.4, 0.99, 1.02])
@@ -112,3 +127,15 @@ def test_gas_free_oil_at_rest_with_a_wall_at_rest_keeps_its_waves_to_rounding():
     chain.advance(5000)
     for now, then in zip(chain.waves(0), before):
         np.testing.assert_allclose(now, then, rtol=1e-14)
+
+
+@pytest.mark.parametrize('cells', [1, 2, 3, 4, 5, 6, 8, 12])
+@pytest.mark.parametrize('fraction', [0.05, 0.39, 0.41, 0.47, 0.49, 0.55, 0.9])
+def test_waves_of_a_chamber_of_any_length_never_grow(cells, fraction, growth):
+    domain = Domain('chamber', (cells + fraction) * CELL, 1e-3, SPEED, longest=20.0 * CELL)
+    chain = LoneChain([domain], [Junction(CLOSED, (0,)), Junction(WALL, (1,))],
+                      Mesh(STEP, 0.025))
+    # where the modes do not decay their beat may rise; an unstable stencil grew by 1e-4 a step
+    # and more, seven times in 20 000 steps
+    assert growth(chain) <= 2.0
+
