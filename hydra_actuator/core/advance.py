@@ -8,6 +8,7 @@ the step time, so any split of the steps gives the same bits.
 
 from hydra_actuator.core.compilation import formula, kernel
 from hydra_actuator.core.observe import find_limits, SOUND
+from hydra_actuator.core.records import flip
 from hydra_actuator.core.step import step
 
 
@@ -38,14 +39,27 @@ def advance(model, state, passes, schedule, inputs, count, check_interval):
     schedule: (times (T,) [s], table (T, C), hold); inputs: work (C,), the inputs in force.
     """
     times, table, hold = schedule
-    cursor = 0
+    cursor, code = 0, SOUND
+    now, other = state, flip(state)
     for _ in range(count):
         time = (state.step[0] + 1) * model.step_time
         cursor = read_inputs(times, table, hold, cursor, time, inputs)
-        step(model, state, inputs, passes)
+        step(model, now, inputs, passes)
+        now, other = other, now
         if state.step[0] % check_interval == 0:
-            code, _ = find_limits(model, state)
+            code, _ = find_limits(model, now)
             if code != SOUND:
-                return code
-    code, _ = find_limits(model, state)
+                break
+    if now.wave_p is not state.wave_p:
+        keep_level(state)
+    if code == SOUND:
+        code, _ = find_limits(model, state)
     return code
+
+
+@formula
+def keep_level(state):
+    """Copy the new level of the waves to where the state of rest has it."""
+    for i in range(state.wave_p.size):
+        state.wave_p[i] = state.new_p[i]
+        state.wave_q[i] = state.new_q[i]

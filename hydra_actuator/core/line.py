@@ -25,8 +25,8 @@ from hydra_actuator.core.compilation import formula
 # line and what the ends reflect; with a parabola none does in shorter lines either.
 LONG = 8
 
-# Spare nodes before and after each domain. A moving face needs three.
-GHOSTS_BEFORE, GHOSTS_AFTER = 1, 3
+# Spare nodes beyond each end; beyond a moving face.
+GHOSTS, GHOSTS_BEYOND_FACE = 1, 3
 
 
 @formula

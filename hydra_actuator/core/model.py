@@ -10,7 +10,7 @@ from its fixed end and a partial one at the face.
 from dataclasses import dataclass
 import math
 
-from hydra_actuator.core.line import GHOSTS_AFTER, GHOSTS_BEFORE
+from hydra_actuator.core.line import GHOSTS, GHOSTS_BEYOND_FACE
 from hydra_actuator.core.records import (
     JUNCTION,
     Model,
@@ -93,8 +93,10 @@ def build_chain(density: float, domains: list[Domain], junctions: list[Junction]
     last = np.empty(count, np.int64)
     for d, domain in enumerate(domains):
         spacing[d], last[d], capacity[d] = _cells(domain, mesh)
-    room = capacity + 1 + GHOSTS_BEFORE + GHOSTS_AFTER
-    start = GHOSTS_BEFORE + SPARE + np.concatenate(([0], np.cumsum(room)[:-1])).astype(np.int64)
+    moving = np.array([int(domain.longest > 0.0) for domain in domains])
+    after = np.where(moving == 1, GHOSTS_BEYOND_FACE, GHOSTS)
+    room = GHOSTS + capacity + 1 + after
+    start = GHOSTS + SPARE + np.concatenate(([0], np.cumsum(room)[:-1])).astype(np.int64)
     of_node = np.concatenate((
         np.zeros(SPARE, np.int64), np.repeat(np.arange(count), room),
         np.full(SPARE, count - 1)))
@@ -107,7 +109,7 @@ def build_chain(density: float, domains: list[Domain], junctions: list[Junction]
         origin=np.array([domain.origin for domain in domains]),
         direction=np.array([domain.direction for domain in domains]),
         start=start, capacity=capacity,
-        moving=np.array([int(domain.longest > 0.0) for domain in domains]),
+        moving=moving,
         spacing=spacing, wave_speed=wave_speed, bulk_modulus=density * wave_speed ** 2,
         area=area, slowness=1.0 / wave_speed, impedance=density * wave_speed / area,
         inverse_area=1.0 / area,
@@ -133,8 +135,8 @@ def set_domain(model: Model, state: State, d: int, wave_p, wave_q) -> None:
 
     A moving face takes the values of the last node.
     """
-    nodes = slice(model.start[d] - GHOSTS_BEFORE,
-                  model.start[d] + model.capacity[d] + 1 + GHOSTS_AFTER)
+    after = GHOSTS_BEYOND_FACE if model.moving[d] else GHOSTS
+    nodes = slice(model.start[d] - GHOSTS, model.start[d] + model.capacity[d] + 1 + after)
     whole = slice(model.start[d], model.start[d] + state.last[d] + 1)
     for field, wave in ((state.wave_p, wave_p), (state.wave_q, wave_q)):
         field[nodes] = np.asarray(wave).flat[-1]

@@ -10,6 +10,7 @@ Outflow velocities are positive out of the domain, whichever end.
 
 from typing import NamedTuple
 
+from hydra_actuator.core.compilation import formula
 import numpy as np
 
 CLOSED, PRESSURE, FLOW, PUMP, ORIFICE, VALVE, PISTON, WALL = range(8)
@@ -98,3 +99,14 @@ class State(NamedTuple):
     oil_stored: np.ndarray      # (2,) accumulator: now, next [m^3]
     step: np.ndarray            # (1,) int64 steps done
     fault: np.ndarray           # (3,) status: code, domain, value
+
+
+@formula
+def flip(state):
+    """Return the same state with the two levels of the waves exchanged: no array is copied."""
+    return State(
+        state.new_p, state.new_q, state.wave_p, state.wave_q,
+        state.last, state.length, state.old_length, state.old_velocity, state.end_wave,
+        state.end_velocity, state.end_velocity_before, state.end_theta, state.face_p,
+        state.face_q, state.spool, state.edge_coefficient, state.valve_velocity, state.ring,
+        state.piston, state.oil_stored, state.step, state.fault)

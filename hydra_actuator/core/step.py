@@ -19,7 +19,7 @@ from hydra_actuator.core.valve import edge_coefficients, move_spool
 @formula
 def step(model, state, inputs, passes):
     """
-    Advance the chain by one step time under the inputs of the new level.
+    Advance the chain by one step time under the inputs of the new level, into new_p and new_q.
 
     Pass 1 takes u at the foot; at the ends, pass 2 takes the mean of foot and an arrival
     extrapolated from two steps (also second order), so the junctions are solved once; each
@@ -139,9 +139,6 @@ def take_new_level(model, state, passes):
         else:
             state.new_p[first + new_last] = state.end_wave[right]
             state.new_q[first + new_last] = returned
-    for i in range(state.wave_p.size):
-        state.wave_p[i] = state.new_p[i]
-        state.wave_q[i] = state.new_q[i]
     motion = state.piston[0]
     motion.position, motion.velocity = motion.new_position, motion.new_velocity
     motion.force = motion.new_force
