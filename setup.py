@@ -17,7 +17,7 @@ setup(
     description='A fast hydraulic servo-actuator, waves included, as a ROS 2 node',
     license='Apache-2.0',
     maintainer='hydra_actuator maintainers',
-    maintainer_email='maintainers@users.noreply.h-seed-1c352a75.example',
+    maintainer_email='maintainers@example.com',
     packages=find_packages(include=[NAME, f'{NAME}.*']),
     package_data={NAME: ['analysis/assets/*', 'recording/schemas/**/*']},
     data_files=[
