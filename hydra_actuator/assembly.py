@@ -12,6 +12,7 @@ import math
 from hydra_actuator.channels import STATIONS
 from hydra_actuator.core.model import build_chain, Domain, Junction, Mesh, step_time_within
 from hydra_actuator.core.observe import SECTION
+from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.port import port_coefficient
 from hydra_actuator.core.records import (
     Model,
@@ -31,15 +32,34 @@ import numpy as np
 DOMAINS = ('supply_line', 'line_1', 'chamber_1', 'chamber_2', 'line_2', 'return_line')
 SPOOL_1, SPOOL_2, LOAD_FORCE, TANK_PRESSURE = range(4)
 INPUTS = 4
+LINES = ('line', 'line_1', 'line_2')
 EDGES = ('pa', 'pb', 'at', 'bt')
 
 # Ends of the chain in the order of the stations: F is the face, G the fixed end of chamber_2.
 END_OF_STATION = dict(zip(STATIONS, (0, 1, 2, 3, 4, 5, 7, 6, 8, 9, 10, 11)))
 
 
-def wave_speed(parameters: Parameters) -> float:
-    """Return the oil's wave speed [m/s] at gauge zero, c = sqrt(chi / rho0)."""
-    return math.sqrt(parameters['fluid.bulk_modulus'] / parameters['fluid.density'])
+def wave_speed(parameters: Parameters, domain: str = '') -> float:
+    """
+    Return the wave speed [m/s] at gauge zero in a domain, in the oil alone by default.
+
+    c^2 = chi / rho0 / (1 + chi D / (E e)) with the elasticity of a thin wall (Korteweg); the
+    walls of chambers are rigid.
+    """
+    p = parameters
+    softness = 1.0
+    if domain.endswith(LINES) and p[f'{domain}.youngs_modulus'] > 0.0:
+        softness += (p['fluid.bulk_modulus'] * p[f'{domain}.diameter']
+                     / (p[f'{domain}.youngs_modulus'] * p[f'{domain}.wall_thickness']))
+    return math.sqrt(p['fluid.bulk_modulus'] / p['fluid.density'] / softness)
+
+
+def oil(parameters: Parameters) -> Oil:
+    """Return the oil of all domains, with gas only if cavitation is modelled."""
+    p = parameters
+    return Oil(p['fluid.density'], p['fluid.kinematic_viscosity'],
+               p['fluid.air_fraction'] if p['fluid.cavitation'] else 0.0,
+               p['ambient_pressure'] - p['fluid.vapour_pressure'])
 
 
 def cylinder_length(parameters: Parameters) -> float:
@@ -84,22 +104,22 @@ def assemble(parameters: Parameters) -> tuple[Model, State]:
     Raises ParameterError where a line is shorter than one cell.
     """
     p, mesh = parameters, choose_mesh(parameters)
-    lengths, starts, speed = domain_lengths(p), origins(p), wave_speed(p)
-    areas = [_line_area(p, name) if name.endswith(('line', 'line_1', 'line_2')) else
+    lengths, starts = domain_lengths(p), origins(p)
+    areas = [_line_area(p, name) if name.endswith(LINES) else
              p[f'cylinder.area_{name[-1]}'] for name in DOMAINS]
     longest = p['cylinder.stroke'] + np.array(
         [p['cylinder.dead_length_1'], p['cylinder.dead_length_2']])
     pressures = (p['supply.pressure'], p['initial.pressure_1'], p['initial.pressure_1'],
                  p['initial.pressure_2'], p['initial.pressure_2'], p['tank.pressure'])
     domains = [
-        Domain(name, lengths[d], areas[d], speed, _loss(p, name), pressures[d],
+        Domain(name, lengths[d], areas[d], wave_speed(p, name), _loss(p, name), pressures[d],
                origin=starts[d], longest=longest[d - 2] if d in (2, 3) else 0.0,
-               direction=-1.0 if d == 3 else 1.0)
+               direction=-1.0 if d == 3 else 1.0, **_wall(p, name))
         for d, name in enumerate(DOMAINS)]
     try:
         model, state = build_chain(
-            p['fluid.density'], domains, _junctions(p, areas), mesh,
-            valve=_valve(p, mesh.step_time), piston=_piston(p), source=_source(p, speed))
+            oil(p), domains, _junctions(p, areas), mesh,
+            valve=_valve(p, mesh.step_time), piston=_piston(p), source=_source(p))
     except ValueError as error:
         raise ParameterError(f'{error}; lengthen it or raise solver.cells') from None
     _set_piston(p, state)
@@ -152,6 +172,12 @@ def _loss(p: Parameters, name: str) -> float:
     if name.startswith('chamber') or p[f'{name}.friction'] == 'none':
         return 0.0
     return p[f'{name}.loss_coefficient']
+
+
+def _wall(p: Parameters, name: str) -> dict:
+    if name.startswith('chamber'):
+        return {'friction': 'none'}
+    return {'friction': p[f'{name}.friction'], 'roughness': p[f'{name}.roughness']}
 
 
 def _orifice_gain(p: Parameters) -> float:
@@ -221,13 +247,14 @@ def _piston(p: Parameters) -> np.ndarray:
     return piston
 
 
-def _source(p: Parameters, speed: float) -> np.ndarray:
+def _source(p: Parameters) -> np.ndarray:
     source = np.zeros(1, SOURCE_PARAMETERS)
     source['max_flow'] = p['supply.max_flow']
     source['accumulator_volume'] = p['supply.accumulator_volume']
     source['precharge'] = p['supply.accumulator_precharge']
     source['ambient'] = p['ambient_pressure']
-    set_supply_pressure(source, p['supply.pressure'], speed, p['fluid.bulk_modulus'])
+    speed = wave_speed(p, 'supply_line')
+    set_supply_pressure(source, p['supply.pressure'], speed, p['fluid.density'] * speed ** 2)
     return source
 
 

@@ -97,12 +97,16 @@ def wave_from_face(history, returned, lag, third_order):
 
 
 @formula
-def renew_last_nodes(model, state, domain, new_last, passes):
-    """Write the outgoing wave of the nodes that the face's path feeds, from old last to new."""
+def renew_last_nodes(model, state, domain, new_last, returned, passes):
+    """
+    Write the wave that left the face into the nodes its path feeds, from old last to new.
+
+    returned: the wave that leaves the face now [m/s]. A node that appears takes over the gas
+    pressure of its neighbour.
+    """
     start, old_last = model.start[domain], state.last[domain]
     end = 2 * domain + 1
     face_velocity = state.end_velocity[end]
-    returned = state.end_wave[end] - 2.0 * face_velocity
     spacing, wave_speed = model.spacing[domain], model.wave_speed[domain]
     for node in range(old_last, new_last + 1):
         distance = state.length[domain] - node * spacing
@@ -114,3 +118,4 @@ def renew_last_nodes(model, state, domain, new_last, passes):
             q = wave_from_face(state.face_q[domain], returned, lag, model.third_order)
             here = 0.5 * (p - q)
         state.new_q[start + node] = q
+        state.star[start + node] = state.star[start + old_last]

@@ -6,7 +6,7 @@ A junction sees Ends (a wave and an impedance each), never a mesh.
 """
 
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.fluid import End
+from hydra_actuator.core.end import End
 from hydra_actuator.core.orifice import solve_orifice
 from hydra_actuator.core.piston import face_pressures, implicitness, move_piston
 from hydra_actuator.core.records import (
@@ -27,9 +27,12 @@ from hydra_actuator.core.valve import solve_valve
 def end_of(model, state, end):
     """Return the End of a domain as the boundaries see it."""
     d = end // 2
+    strength, held = model.end_strength[d], 0.0
+    if strength > 0.0:
+        held = strength / state.end_star[end]
     return End(
         state.end_wave[end], state.end_velocity[end], model.slowness[d], model.bulk_modulus[d],
-        model.area[d], model.impedance[d], model.inverse_area[d])
+        model.area[d], model.impedance[d], model.inverse_area[d], strength, held, model.floor)
 
 
 @formula

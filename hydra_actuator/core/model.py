@@ -10,7 +10,9 @@ from its fixed end and a partial one at the face.
 from dataclasses import dataclass
 import math
 
+from hydra_actuator.core.friction import TERMS
 from hydra_actuator.core.line import GHOSTS, GHOSTS_BEYOND_FACE
+from hydra_actuator.core.oil import friction_constants, gas_constants, is_plain, Oil
 from hydra_actuator.core.records import (
     JUNCTION,
     Model,
@@ -43,6 +45,8 @@ class Domain:
     pressure: float = 0.0
     velocity: float = 0.0
     longest: float = 0.0
+    friction: str = 'constant'
+    roughness: float = 0.0
     origin: float = 0.0
     direction: float = 1.0
 
@@ -79,7 +83,7 @@ def step_time_within(period: float, length: float, cells: int, wave_speed: float
     return period / math.ceil(period / longest * (1.0 - 1e-12))
 
 
-def build_chain(density: float, domains: list[Domain], junctions: list[Junction], mesh: Mesh,
+def build_chain(oil: Oil, domains: list[Domain], junctions: list[Junction], mesh: Mesh,
                 **records: np.ndarray) -> tuple[Model, State]:
     """
     Return model and state at rest of a chain.
@@ -102,20 +106,29 @@ def build_chain(density: float, domains: list[Domain], junctions: list[Junction]
         np.full(SPARE, count - 1)))
     wave_speed = np.array([domain.wave_speed for domain in domains])
     area = np.array([domain.area for domain in domains])
-    loss = np.array([domain.loss_coefficient for domain in domains])
+    plain = is_plain(oil, domains)
+    loss = np.array([domain.loss_coefficient if plain and domain.friction != 'none' else 0.0
+                     for domain in domains])
+    strength, end_strength = gas_constants(oil, wave_speed, spacing, mesh.step_time)
     model = Model(
-        step_time=mesh.step_time, max_mach=mesh.max_mach, density=density,
+        step_time=mesh.step_time, max_mach=mesh.max_mach, density=oil.density,
         third_order=1.0 if mesh.interpolation == 'cubic' else 0.0,
         origin=np.array([domain.origin for domain in domains]),
         direction=np.array([domain.direction for domain in domains]),
         start=start, capacity=capacity,
         moving=moving,
-        spacing=spacing, wave_speed=wave_speed, bulk_modulus=density * wave_speed ** 2,
-        area=area, slowness=1.0 / wave_speed, impedance=density * wave_speed / area,
+        spacing=spacing, wave_speed=wave_speed, bulk_modulus=oil.density * wave_speed ** 2,
+        area=area, slowness=1.0 / wave_speed, impedance=oil.density * wave_speed / area,
         inverse_area=1.0 / area,
         courant=(wave_speed * mesh.step_time / spacing)[of_node],
         slope=(0.5 * mesh.step_time / spacing)[of_node],
         friction=(0.125 * mesh.step_time * loss)[of_node],
+        plain=int(plain), gas=int(oil.air_fraction > 0.0), floor=oil.floor,
+        **friction_constants(
+            oil, domains, mesh.step_time, mesh.max_mach * float(np.max(wave_speed)), of_node),
+        strength=_inner(strength, of_node, start, capacity, moving), end_strength=end_strength,
+        node_slowness=(1.0 / wave_speed)[of_node],
+        node_bulk_modulus=(oil.density * wave_speed ** 2)[of_node],
         junctions=_junction_records(junctions),
         valve=records.get('valve', np.zeros(1, VALVE_PARAMETERS)),
         piston=records.get('piston', np.zeros(1, PISTON_PARAMETERS)),
@@ -150,6 +163,11 @@ def set_domain(model: Model, state: State, d: int, wave_p, wave_q) -> None:
     state.end_wave[2 * d], state.end_wave[2 * d + 1] = state.wave_q[first], state.wave_p[last]
     state.end_velocity_before[:] = state.end_velocity
     state.new_p[:], state.new_q[:] = state.wave_p, state.wave_q
+    star = model.floor + model.bulk_modulus[d] * np.expm1(
+        0.5 * (state.wave_p[nodes] + state.wave_q[nodes]) / model.wave_speed[d])
+    if model.end_strength[d] > 0.0:
+        state.star[nodes] = star
+        state.end_star[2 * d], state.end_star[2 * d + 1] = state.star[first], state.star[last]
 
 
 def node_positions(model: Model, state: State, d: int) -> np.ndarray:
@@ -166,6 +184,14 @@ def _cells(domain: Domain, mesh: Mesh) -> tuple[float, int, int]:
     if domain.longest > 0.0:
         return shortest, int(domain.length / shortest), int(domain.longest / shortest) + 1
     return domain.length / cells, cells, cells
+
+
+def _inner(strength: np.ndarray, of_node: np.ndarray, start: np.ndarray,
+           capacity: np.ndarray, moving: np.ndarray) -> np.ndarray:
+    inner = np.zeros(len(of_node))
+    for d, first in enumerate(start):
+        inner[first + 1:first + capacity[d] + moving[d]] = strength[d]
+    return inner
 
 
 def _junction_records(junctions: list[Junction]) -> np.ndarray:
@@ -185,6 +211,9 @@ def _empty_state(domains: int, nodes: int) -> State:
         end_wave=np.zeros(2 * domains), end_velocity=np.zeros(2 * domains),
         end_velocity_before=np.zeros(2 * domains), end_theta=np.zeros(2 * domains),
         face_p=np.zeros(domains),
-        face_q=np.zeros((domains, 3)), spool=np.zeros(4), edge_coefficient=np.zeros(4),
+        face_q=np.zeros((domains, 3)), theta_p=np.zeros(nodes), theta_q=np.zeros(nodes),
+        drag=np.zeros(nodes), new_drag=np.zeros(nodes), memory=np.zeros((TERMS, nodes)),
+        fading=np.zeros(nodes), change=np.zeros(nodes), star=np.ones(nodes),
+        end_star=np.ones(2 * domains), spool=np.zeros(4), edge_coefficient=np.zeros(4),
         valve_velocity=np.zeros(4), ring=np.zeros((6, 4)), piston=np.zeros(1, PISTON_STATE),
         oil_stored=np.zeros(2), step=np.zeros(1, np.int64), fault=np.zeros(3))

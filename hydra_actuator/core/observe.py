@@ -79,8 +79,23 @@ def values_within(model, state, d, distance):
     else:
         p = interpolate(wave_p[i - 1], wave_p[i], wave_p[i + 1], wave_p[i + 2], f, 1.0)
         q = interpolate(wave_q[i - 1], wave_q[i], wave_q[i + 1], wave_q[i + 2], f, 1.0)
-    pressure = pressure_of(0.5 * (p + q), model.wave_speed[d], model.bulk_modulus[d])
-    return pressure, 0.5 * (p - q) * model.direction[d]
+    velocity = 0.5 * (p - q) * model.direction[d]
+    if model.end_strength[d] > 0.0:
+        return gas_pressure_within(model, state, d, node, f) - model.floor, velocity
+    return pressure_of(0.5 * (p + q), model.wave_speed[d], model.bulk_modulus[d]), velocity
+
+
+@formula
+def gas_pressure_within(model, state, d, node, fraction):
+    """Return p* [Pa] between a whole node and the next or the face, linear, where gas is."""
+    i = model.start[d] + node
+    after, reach = state.star[i + 1], 1.0
+    if model.moving[d] == 1 and node == state.last[d]:
+        after = state.end_star[2 * d + 1]
+        reach = max(state.length[d] / model.spacing[d] - node, 1e-9)
+    elif node == state.last[d]:
+        after = state.star[i]
+    return state.star[i] + min(fraction / reach, 1.0) * (after - state.star[i])
 
 
 @formula
@@ -175,8 +190,11 @@ def read_field(model, state, ambient_pressure, out):
             else:
                 i = model.start[d] + index
                 p, q = state.wave_p[i], state.wave_q[i]
-                out[row, 0] = ambient_pressure + pressure_of(
+                pressure = pressure_of(
                     0.5 * (p + q), model.wave_speed[d], model.bulk_modulus[d])
+                if model.strength[i] > 0.0:
+                    pressure = state.star[i] - model.floor
+                out[row, 0] = ambient_pressure + pressure
                 out[row, 1] = 0.5 * (p - q) * model.direction[d]
             row += 1
     return row

@@ -12,7 +12,7 @@ Neglected: the oil inside the orifice, the change of C_d with Reynolds number an
 import math
 
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.fluid import end_relation
+from hydra_actuator.core.end import end_relation
 
 # Largest last step of Newton, relative. A step dv leaves dv^2/2c, and 4e-7 dv of the short series
 # at 35 MPa: with this, law and mass at a junction hold to 1e-10. Below the second, in m/s, is the

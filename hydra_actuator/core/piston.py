@@ -18,7 +18,7 @@ Neglected: elasticity of the rod and of the stops, tilting, cushioning.
 import math
 
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.fluid import end_relation, relative_compression
+from hydra_actuator.core.end import end_relation
 from hydra_actuator.core.orifice import settled
 
 MOST_PASSES = 60
@@ -38,12 +38,9 @@ def face_pressures(ends, piston, velocity):
     u_1, u_2 = velocity, velocity
     if piston.leakage > 0.0:
         u_1, u_2 = leaking_velocities(ends, piston, velocity)
-    m_1 = relative_compression((end_1.wave - u_1) * end_1.slowness)
-    m_2 = relative_compression((end_2.wave + u_2) * end_2.slowness)
-    rigidity_1 = end_1.bulk_modulus * end_1.slowness
-    rigidity_2 = end_2.bulk_modulus * end_2.slowness
-    return (end_1.bulk_modulus * m_1, end_2.bulk_modulus * m_2,
-            rigidity_1 + rigidity_1 * m_1, rigidity_2 + rigidity_2 * m_2, u_1, u_2)
+    p_1, _, z_1, flatness_1 = end_relation(end_1, u_1)
+    p_2, _, z_2, flatness_2 = end_relation(end_2, -u_2)
+    return p_1, p_2, z_1 / flatness_1, z_2 / flatness_2, u_1, u_2
 
 
 @formula

@@ -68,6 +68,22 @@ class Model(NamedTuple):
     courant: np.ndarray         # (N,) c dt/dx [-]
     slope: np.ndarray           # (N,) dt/dx / 2 [s/m], for velocities 2 u
     friction: np.ndarray        # (N,) lambda dt / 8 [s/m], for velocities 2 u
+    plain: int                  # 1: constant friction or none, no gas
+    floor: float                # ambient less vapour pressure [Pa]
+    loss: np.ndarray            # (N,) lambda [1/m]
+    damping: np.ndarray         # tables of h [1/s], one line's after the other's
+    table_start: np.ndarray     # (N,) where the node's table begins
+    table_scale: float          # table entries per sqrt(m/s)
+    decay: np.ndarray           # (TERMS, N) exp(-z) of the friction's memory
+    gain: np.ndarray            # (TERMS, N) of a change of u on it [1/s]
+    inertia: np.ndarray         # (N,) of a change of u on the drag [1/s]
+    liveliness: np.ndarray      # (N,) inertia and all gains [1/s]
+    unsteady: int               # 1: some line's friction has a memory
+    gas: int                    # 1: there is gas in the oil
+    strength: np.ndarray        # (N,) of the gas at inner nodes [Pa m/s], 0 at ends
+    end_strength: np.ndarray    # (D,) of the gas at ends [Pa m/s]
+    node_slowness: np.ndarray   # (N,) 1/c [s/m]
+    node_bulk_modulus: np.ndarray  # (N,) [Pa]
     junctions: np.ndarray       # (J,) JUNCTION
     valve: np.ndarray           # (1,) VALVE_PARAMETERS
     piston: np.ndarray          # (1,) PISTON_PARAMETERS
@@ -91,6 +107,15 @@ class State(NamedTuple):
     end_theta: np.ndarray       # (2 D,) foot of the arriving wave [cells]
     face_p: np.ndarray          # (D,) P at a moving face
     face_q: np.ndarray          # (D, 3) Q at a moving face now, one and two steps ago
+    theta_p: np.ndarray         # (N,) work: feet of the characteristics [cells]
+    theta_q: np.ndarray         # (N,)
+    drag: np.ndarray            # (N,) J of the wall's friction [m/s^2]
+    new_drag: np.ndarray        # (N,) work: J estimated at arrival
+    memory: np.ndarray          # (TERMS, N) of the friction, as drag [m/s^2]
+    fading: np.ndarray          # (N,) what the memory will be if u stays [m/s^2]
+    change: np.ndarray          # (N,) work: of u in the step [m/s]
+    star: np.ndarray            # (N,) absolute less vapour pressure where there is gas [Pa]
+    end_star: np.ndarray        # (2 D,) the same at the ends
     spool: np.ndarray           # (4,) displacement, velocity of spool 1, of spool 2
     edge_coefficient: np.ndarray  # (4,) K' of the valve's edges
     valve_velocity: np.ndarray  # (4,) work: outflow at A, B, I, J
@@ -108,5 +133,7 @@ def flip(state):
         state.new_p, state.new_q, state.wave_p, state.wave_q,
         state.last, state.length, state.old_length, state.old_velocity, state.end_wave,
         state.end_velocity, state.end_velocity_before, state.end_theta, state.face_p,
-        state.face_q, state.spool, state.edge_coefficient, state.valve_velocity, state.ring,
-        state.piston, state.oil_stored, state.step, state.fault)
+        state.face_q, state.theta_p, state.theta_q, state.drag, state.new_drag, state.memory,
+        state.fading, state.change, state.star, state.end_star, state.spool,
+        state.edge_coefficient, state.valve_velocity, state.ring, state.piston,
+        state.oil_stored, state.step, state.fault)

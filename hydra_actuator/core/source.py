@@ -11,7 +11,8 @@ relief valve's slope, inertia of the accumulator's neck, heat of the gas.
 
 
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.fluid import end_relation, riemann_variable
+from hydra_actuator.core.end import end_relation, velocity_at
+from hydra_actuator.core.fluid import riemann_variable
 from hydra_actuator.core.orifice import MOST_PASSES, settled
 
 GAS_EXPONENT = 1.4
@@ -21,7 +22,8 @@ MOST_BRACKETED_PASSES = 60
 @formula
 def solve_pressure_end(end, pressure):
     """Return the outflow velocity [m/s] of an end held at a gauge pressure [Pa]."""
-    return end.wave - riemann_variable(pressure, 1.0 / end.slowness, end.bulk_modulus)
+    mu = riemann_variable(pressure, 1.0 / end.slowness, end.bulk_modulus)
+    return velocity_at(end, mu, pressure)
 
 
 @formula
@@ -44,7 +46,7 @@ def solve_pump(end, source, oil_stored, step_time):
 
     source: SOURCE_PARAMETERS of hydra_actuator.core.records; max_flow 0 is unlimited.
     """
-    free = end.wave - source.mu
+    free = velocity_at(end, source.mu, source.pressure)
     if source.max_flow == 0.0:
         return free, oil_stored
     if source.accumulator_volume > 0.0:
@@ -69,7 +71,7 @@ def solve_accumulator(end, source, oil_stored, step_time):
     The pump gives max_flow, the line draws q, the rest goes into the gas within the step
     (implicit, so stable at any gas stiffness); at supply pressure the relief valve opens.
     """
-    free = end.wave - source.mu
+    free = velocity_at(end, source.mu, source.pressure)
     drawn = -free * end.area * source.relative_density
     full = stored_oil(source.pressure, source)
     if oil_stored + step_time * (source.max_flow - drawn) >= full:
@@ -78,8 +80,8 @@ def solve_accumulator(end, source, oil_stored, step_time):
         dry = solve_flow_end(end, -source.max_flow)
         if end_relation(end, dry)[0] <= source.precharge:
             return dry, 0.0
-    velocity = min(max(end.velocity, free), end.wave - vacuum(end, source))
-    low, high = free, end.wave - vacuum(end, source)
+    low, high = free, fastest_outflow(end, source)
+    velocity = min(max(end.velocity, low), high)
     # stored(p) - oil - dt (max_flow - drawn) falls as v rises: Newton inside a bracket
     for _ in range(MOST_BRACKETED_PASSES):
         p, q, z, flatness = end_relation(end, velocity)
@@ -105,7 +107,10 @@ def solve_accumulator(end, source, oil_stored, step_time):
 
 
 @formula
-def vacuum(end, source):
-    """Return mu [m/s] just above absolute vacuum, the lower bound of the gas law."""
-    return riemann_variable(
-        -0.999 * source.ambient, 1.0 / end.slowness, end.bulk_modulus)
+def fastest_outflow(end, source):
+    """Return the outflow velocity [m/s] just above absolute vacuum, where the gas law ends."""
+    depth = source.ambient
+    if end.strength > 0.0:
+        depth = min(depth, end.floor)
+    mu = riemann_variable(-0.999 * depth, 1.0 / end.slowness, end.bulk_modulus)
+    return velocity_at(end, mu, -0.999 * depth)

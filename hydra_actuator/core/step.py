@@ -8,9 +8,12 @@ One time step of a chain, as a list of stages; formulas live in the files they a
 
 import math
 
+from hydra_actuator.core.cavity import fill_cavities
 from hydra_actuator.core.chamber import extend_to_face, renew_last_nodes, wave_at_face
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.junctions import solve_junction
+from hydra_actuator.core.drag import drag_at, remember_drag, sweep_with_drag
+from hydra_actuator.core.end import state_at
+from hydra_actuator.core.junctions import end_of, solve_junction
 from hydra_actuator.core.line import arriving_wave, fill_ghost, sweep
 from hydra_actuator.core.records import VALVE
 from hydra_actuator.core.valve import edge_coefficients, move_spool
@@ -28,8 +31,11 @@ def step(model, state, inputs, passes):
     mesh = (model.courant, model.slope, model.friction)
     move_spools(model, state, inputs)
     continue_beyond_ends(model, state)
-    sweep((state.wave_p, state.wave_q), (state.new_p, state.new_q), mesh, model.third_order,
-          passes)
+    if model.plain == 1:
+        sweep((state.wave_p, state.wave_q), (state.new_p, state.new_q), mesh, model.third_order,
+              passes)
+    else:
+        sweep_with_drag(model, state, passes)
     extrapolate_ends(state)
     for k in range(max(1, len(passes) - 1)):
         arrive(model, state, mesh, (len(passes) == 1, k == 0))
@@ -105,6 +111,22 @@ def arrive(model, state, mesh, stage):
         else:
             state.end_wave[right], state.end_theta[right] = arriving_wave(
                 state.wave_p, state.wave_q, last, 1, mesh, model.third_order, guess)
+        if model.plain == 0 and model.moving[d] == 0:
+            lose_to_drag(model, state, left, first, foot_alone)
+            lose_to_drag(model, state, right, last, foot_alone)
+        elif model.plain == 0:
+            lose_to_drag(model, state, left, first, foot_alone)
+
+
+@formula
+def lose_to_drag(model, state, end, node, foot_alone):
+    """Take the wall's friction from the wave that arrived at a fixed end."""
+    back = 1 if end % 2 == 0 else -1
+    sign = -1.0 if end % 2 == 0 else 1.0
+    drag = state.drag[node] + state.end_theta[end] * (state.drag[node + back] - state.drag[node])
+    if not foot_alone:
+        drag = 0.5 * (drag + drag_at(model, state, node, sign * state.end_velocity[end]))
+    state.end_wave[end] -= model.step_time * sign * drag
 
 
 @formula
@@ -116,6 +138,15 @@ def guess_at(state, end, foot_alone, first_pass):
 
 
 @formula
+def returned_wave(model, state, end):
+    """Return the wave [m/s] that leaves an end after the junctions, and keep its gas pressure."""
+    if model.end_strength[end // 2] == 0.0:
+        return state.end_wave[end] - 2.0 * state.end_velocity[end]
+    mu, state.end_star[end] = state_at(end_of(model, state, end), state.end_velocity[end])
+    return 2.0 * mu - state.end_wave[end]
+
+
+@formula
 def take_new_level(model, state, passes):
     """Write the ends into the field, move the meshes with their faces, keep the new level."""
     for d in range(model.start.size):
@@ -123,12 +154,13 @@ def take_new_level(model, state, passes):
         right = left + 1
         new_last = state.last[d]
         state.new_q[first] = state.end_wave[left]
-        state.new_p[first] = state.end_wave[left] - 2.0 * state.end_velocity[left]
-        returned = state.end_wave[right] - 2.0 * state.end_velocity[right]
+        state.new_p[first] = returned_wave(model, state, left)
+        returned = returned_wave(model, state, right)
+        state.star[first] = state.end_star[left]
         if model.moving[d] == 1:
             new_last = int(state.length[d] / model.spacing[d])
             if new_last >= 1 and new_last <= model.capacity[d]:
-                renew_last_nodes(model, state, d, new_last, passes)
+                renew_last_nodes(model, state, d, new_last, returned, passes)
                 state.last[d] = new_last
             for k in range(2, 0, -1):
                 state.face_q[d, k] = state.face_q[d, k - 1]
@@ -139,6 +171,11 @@ def take_new_level(model, state, passes):
         else:
             state.new_p[first + new_last] = state.end_wave[right]
             state.new_q[first + new_last] = returned
+            state.star[first + new_last] = state.end_star[right]
+    if model.plain == 0:
+        if model.gas == 1:
+            fill_cavities(model, state)
+        remember_drag(model, state)
     motion = state.piston[0]
     motion.position, motion.velocity = motion.new_position, motion.new_velocity
     motion.force = motion.new_force

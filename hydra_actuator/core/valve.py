@@ -17,7 +17,7 @@ so the direction always descends. Neglected: flow forces on the spool, oil in th
 import math
 
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.fluid import end_relation
+from hydra_actuator.core.end import end_relation
 from hydra_actuator.core.orifice import MOST_PASSES, orifice_drop, settled, solve_orifice
 
 A, B, I, J = range(4)

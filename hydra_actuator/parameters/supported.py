@@ -8,13 +8,9 @@ They are refused, so that none is ever ignored in silence.
 from collections.abc import Mapping
 
 from hydra_actuator.parameters.definition import ParameterError, Value
-from hydra_actuator.parameters.table_hydraulics import LINES
 
 # What is available of each parameter that is restricted.
 AVAILABLE: dict[str, tuple[Value, ...]] = {
-    'fluid.cavitation': (False,),
-    **{f'{line}.friction': ('none', 'constant') for line in LINES},
-    **{f'{line}.youngs_modulus': (0.0,) for line in LINES},
     'initial.equilibrium': (False,),
     'timing.mode': ('realtime',),
     'sensor.position_noise': (0.0,),

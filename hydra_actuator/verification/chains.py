@@ -11,6 +11,7 @@ from functools import cache
 from hydra_actuator.core.advance import advance
 from hydra_actuator.core.model import build_chain, Domain, Junction, Mesh, node_positions
 from hydra_actuator.core.observe import NOT_A_NUMBER, observe, read_field, SECTION, TOO_FAST
+from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.records import CLOSED
 from hydra_actuator.errors import Failure
 from hydra_actuator.kernels import warm_kernels
@@ -21,17 +22,18 @@ DENSITY = 860.0
 WAVE_SPEED = 1300.0
 BULK_MODULUS = DENSITY * WAVE_SPEED ** 2
 INPUTS = 4
+OIL = Oil(DENSITY)
 
 
 class LoneChain:
     """A chain of domains and junctions with its state; inputs are held until changed."""
 
     def __init__(self, domains: list[Domain], junctions: list[Junction], mesh: Mesh,
-                 density: float = DENSITY, **records: np.ndarray) -> None:
+                 oil: Oil = OIL, **records: np.ndarray) -> None:
         """Build the chain at rest; records: valve, piston, source as build_chain takes them."""
         make_kernels_ready(mesh.iterations)
         self.names = [domain.name for domain in domains]
-        self.model, self.state = build_chain(density, domains, junctions, mesh, **records)
+        self.model, self.state = build_chain(oil, domains, junctions, mesh, **records)
         self.inputs = np.zeros(INPUTS)
         self._table = np.zeros((1, INPUTS))
         self._held = (np.zeros(1), self._table, True)
@@ -120,7 +122,7 @@ def make_kernels_ready(iterations: int) -> None:
     """Load or compile the kernels for a number of iterations, once in a process."""
     mesh = Mesh(1e-5, iterations=iterations)
     model, state = build_chain(
-        DENSITY, [Domain('line', 0.1, 1e-4, WAVE_SPEED)],
+        OIL, [Domain('line', 0.1, 1e-4, WAVE_SPEED)],
         [Junction(CLOSED, (0,)), Junction(CLOSED, (1,))], mesh)
     inputs = np.zeros(INPUTS)
     schedule = (np.zeros(1), np.zeros((1, INPUTS)), True)

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import math
 
 from hydra_actuator.core.model import Domain, Junction, Mesh, set_domain, step_time_within
+from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.records import CLOSED, PISTON, PISTON_PARAMETERS
 from hydra_actuator.verification.case import Case, Row
 from hydra_actuator.verification.chains import LoneChain
@@ -80,7 +81,7 @@ def _chain(column: Column, cells: int, period: float) -> tuple[LoneChain, int]:
                origin=k * total, direction=1.0 - 2.0 * k)
         for k, (area, length) in enumerate(zip(column.areas, column.lengths))]
     junctions = [Junction(CLOSED, (0,)), Junction(CLOSED, (2,)), Junction(PISTON, (1, 3))]
-    return LoneChain(chambers, junctions, mesh, DENSITY, piston=piston), SAMPLES
+    return LoneChain(chambers, junctions, mesh, Oil(DENSITY), piston=piston), SAMPLES
 
 
 def _deflect(chain: LoneChain, column: Column, omega: float) -> None:

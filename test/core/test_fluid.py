@@ -3,9 +3,8 @@
 
 import math
 
+from hydra_actuator.core.end import End, end_relation
 from hydra_actuator.core.fluid import (
-    End,
-    end_relation,
     pressure_of,
     relative_compression,
     riemann_variable,

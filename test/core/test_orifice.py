@@ -4,7 +4,7 @@
 from decimal import Decimal, getcontext
 import math
 
-from hydra_actuator.core.fluid import End
+from hydra_actuator.core.end import End
 from hydra_actuator.core.orifice import orifice_drop, orifice_flow, solve_orifice
 from hypothesis import given
 from hypothesis import strategies as st

@@ -4,7 +4,7 @@
 from itertools import pairwise
 import math
 
-from hydra_actuator.core.fluid import End
+from hydra_actuator.core.end import End
 from hydra_actuator.core.piston import (
     face_pressures,
     implicitness,

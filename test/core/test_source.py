@@ -3,7 +3,7 @@
 
 import math
 
-from hydra_actuator.core.fluid import End
+from hydra_actuator.core.end import End
 from hydra_actuator.core.records import SOURCE_PARAMETERS
 from hydra_actuator.core.source import (
     GAS_EXPONENT,

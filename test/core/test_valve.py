@@ -5,7 +5,7 @@ import cmath
 import math
 
 from hydra_actuator.assembly import spool_transition
-from hydra_actuator.core.fluid import End
+from hydra_actuator.core.end import End
 from hydra_actuator.core.orifice import orifice_drop, solve_orifice
 from hydra_actuator.core.records import VALVE_PARAMETERS
 from hydra_actuator.core.valve import edge_coefficients, move_spool, solve_valve

@@ -149,7 +149,6 @@ def test_looking_up_a_misspelt_name_says_what_was_meant():
 
 
 @pytest.mark.parametrize('changes', [
-    {'fluid.cavitation': True}, {'line_2.friction': 'unsteady'}, {'line_1.youngs_modulus': 2e11},
     {'initial.equilibrium': True}, {'timing.mode': 'lockstep'}, {'sensor.delay': 0.1},
     {'fault.enabled': True}, {'recording.mode': 'snapshot'}, {'recording.split_size': 10**6},
 ])

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Free gas at a node: the balance of oil and gas, alone and in a line."""
+
+import math
+
+from hydra_actuator.core.cavity import gas_balance
+from hydra_actuator.core.model import Domain, Junction, Mesh
+from hydra_actuator.core.oil import Oil
+from hydra_actuator.core.records import CLOSED, PRESSURE
+from hydra_actuator.verification.chains import LoneChain
+from hypothesis import given
+from hypothesis import strategies as st
+import numpy as np
+import pytest
+
+DENSITY, SPEED = 860.0, 1300.0
+MODULUS = DENSITY * SPEED ** 2
+FLOOR = 101325.0 - 10.0
+
+
+@given(st.floats(-2e7, 6e7), st.floats(-7.0, -1.0), st.floats(1.0, 8.0))
+def test_oil_and_gas_agree_on_one_pressure(pressure, exponent, star_exponent):
+    strength = 0.5 * SPEED * 10.0 ** exponent * FLOOR
+    held = min(strength / 10.0 ** star_exponent, 2.0 * SPEED)
+    free = SPEED * math.log1p(pressure / MODULUS)
+    mu, star = gas_balance(free, held, strength, FLOOR, (1.0 / SPEED, MODULUS))
+    assert star > 0.0
+    assert mu == pytest.approx(free - held + strength / star, rel=1e-9, abs=1e-9)
+    assert MODULUS * math.expm1(mu / SPEED) + FLOOR == pytest.approx(star, rel=1e-6, abs=1e-3)
+
+
+def test_without_gas_the_oil_keeps_its_wave():
+    mu, _ = gas_balance(7.0, 0.0, 0.0, FLOOR, (1.0 / SPEED, MODULUS))
+    assert mu == pytest.approx(7.0, rel=1e-12)
+
+
+def line(air_fraction: float, pressure: float, cells: int, courant: float) -> LoneChain:
+    step = 2.0 / cells * courant / SPEED
+    return LoneChain(
+        [Domain('line', 2.0, 2e-4, SPEED, pressure=pressure)],
+        [Junction(PRESSURE, (0,), 0), Junction(CLOSED, (1,))],
+        Mesh(step, 1.0 / courant - 1.0), oil=Oil(DENSITY, 0.0, air_fraction, FLOOR))
+
+
+@pytest.mark.parametrize('courant', [0.7, 0.975])
+@pytest.mark.parametrize(('air_fraction', 'pressure'), [(1e-3, 1e6), (1e-2, 5e6), (1e-4, 2e5)])
+def test_gas_lowers_the_wave_speed_as_the_formula_says(air_fraction, pressure, courant):
+    chain = line(air_fraction, pressure, 200, courant)
+    star = pressure + FLOOR
+    # gas at the node: alpha0 (ambient - p_v) / p* by volume, stiffness p*
+    share = air_fraction * FLOOR / star
+    ratio = 1.0 + pressure / MODULUS
+    slowed = SPEED / math.sqrt(1.0 + DENSITY * ratio * SPEED ** 2 * share / star)
+    frequency = slowed / (4.0 * 2.0)
+    step, trace = chain.model.step_time, []
+    chain.hold(pressure * (1.0 + 1e-7))
+    for _ in range(round(6.0 / frequency / step)):
+        chain.advance()
+        trace.append(chain.end_pressure(1) - pressure * (1.0 + 1e-7))
+    trace = np.array(trace)
+    rising = np.flatnonzero((trace[:-1] < 0.0) & (trace[1:] >= 0.0))
+    instants = rising + trace[rising] / (trace[rising] - trace[rising + 1])
+    period = np.diff(instants).mean() * step
+    assert 1.0 / period == pytest.approx(frequency, rel=1e-3)
+
+
+def test_pulled_oil_opens_cavities_and_stays_above_vapour_pressure():
+    chain = line(1e-5, 1e5, 100, 0.975)
+    chain.hold(1e5)
+    chain.advance(50)
+    lowest = np.inf
+    for k in range(400):
+        chain.hold(1e5 if k > 200 else -1e5)
+        chain.advance(5)
+        lowest = min(lowest, chain.end_pressure(1), float(chain.state.star[2:103].min()) - FLOOR)
+    assert -FLOOR < lowest < -0.9 * FLOOR
