@@ -86,7 +86,7 @@ class Actuator:
         self._schedule = (self._times, self._table, True)
 
     def _make_ready(self) -> None:
-        with warm_kernels(len(self._passes)):
+        with warm_kernels(len(self._passes), not self._model.extras):
             self._run(self._schedule, 0)
             self._observe()
             self.read_field(np.empty((len(self.field_labels), 2), np.float32))

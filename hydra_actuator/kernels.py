@@ -36,14 +36,15 @@ LONGEST_COMPILATION = 3600.0
 
 
 @contextmanager
-def warm_kernels(passes: int) -> Iterator[None]:
+def warm_kernels(passes: int, plain: bool = True) -> Iterator[None]:
     """
     Let the kernels called inside come from the disk, or be compiled and kept there.
 
-    passes: solver iterations, for which the kernels are specialised. The caller calls each
-    kernel once inside the context, so that nothing compiles afterwards.
+    passes: solver iterations; plain: whether the model has no extras; the kernels are specialised
+    for both. The caller calls each kernel once inside the context, so that nothing compiles
+    afterwards.
     """
-    place = cache_root() / cache_key(passes)
+    place = cache_root() / cache_key(passes, plain)
     if is_intact(place):
         _attach(place)
         try:
@@ -91,11 +92,11 @@ def digest_of_sources(folder: Path) -> str:
 SOURCES = digest_of_sources(Path(hydra_actuator.core.__file__).parent)
 
 
-def cache_key(passes: int) -> str:
+def cache_key(passes: int, plain: bool = True) -> str:
     """Return the name of the directory that fits sources, versions and processor."""
     about = (SOURCES, sys.version, numba.__version__, llvmlite.__version__, np.__version__,
              llvmlite.binding.get_host_cpu_name(),
-             llvmlite.binding.get_host_cpu_features().flatten(), passes)
+             llvmlite.binding.get_host_cpu_features().flatten(), passes, plain)
     return hashlib.sha256(repr(about).encode()).hexdigest()[:32]
 
 

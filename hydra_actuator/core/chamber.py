@@ -118,4 +118,5 @@ def renew_last_nodes(model, state, domain, new_last, returned, passes):
             q = wave_from_face(state.face_q[domain], returned, lag, model.third_order)
             here = 0.5 * (p - q)
         state.new_q[start + node] = q
-        state.star[start + node] = state.star[start + old_last]
+        if len(model.extras) > 0:
+            state.star[start + node] = state.star[start + old_last]

@@ -27,6 +27,11 @@ from hydra_actuator.core.valve import solve_valve
 def end_of(model, state, end):
     """Return the End of a domain as the boundaries see it."""
     d = end // 2
+    if len(model.extras) == 0:
+        return End(
+            state.end_wave[end], state.end_velocity[end], model.slowness[d],
+            model.bulk_modulus[d], model.area[d], model.impedance[d], model.inverse_area[d],
+            0.0, 0.0, 0.0)
     strength, held = model.end_strength[d], 0.0
     if strength > 0.0:
         held = strength / state.end_star[end]

@@ -123,7 +123,7 @@ def build_chain(oil: Oil, domains: list[Domain], junctions: list[Junction], mesh
         courant=(wave_speed * mesh.step_time / spacing)[of_node],
         slope=(0.5 * mesh.step_time / spacing)[of_node],
         friction=(0.125 * mesh.step_time * loss)[of_node],
-        plain=int(plain), gas=int(oil.air_fraction > 0.0), floor=oil.floor,
+        extras=() if plain else (1,), gas=int(oil.air_fraction > 0.0), floor=oil.floor,
         **friction_constants(
             oil, domains, mesh.step_time, mesh.max_mach * float(np.max(wave_speed)), of_node),
         strength=_inner(strength, of_node, start, capacity, moving), end_strength=end_strength,

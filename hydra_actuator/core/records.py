@@ -47,7 +47,12 @@ PISTON_STATE = np.dtype([
 
 
 class Model(NamedTuple):
-    """Constants of a chain; shapes: D domains, N nodes with ghosts, J junctions."""
+    """
+    Constants of a chain; shapes: D domains, N nodes with ghosts, J junctions.
+
+    The length of `extras` is part of the type: a plain chain is compiled alone, without a trace
+    of what it does not need.
+    """
 
     step_time: float
     max_mach: float
@@ -68,7 +73,7 @@ class Model(NamedTuple):
     courant: np.ndarray         # (N,) c dt/dx [-]
     slope: np.ndarray           # (N,) dt/dx / 2 [s/m], for velocities 2 u
     friction: np.ndarray        # (N,) lambda dt / 8 [s/m], for velocities 2 u
-    plain: int                  # 1: constant friction or none, no gas
+    extras: tuple               # () with constant friction or none and no gas, else (1,)
     floor: float                # ambient less vapour pressure [Pa]
     loss: np.ndarray            # (N,) lambda [1/m]
     damping: np.ndarray         # tables of h [1/s], one line's after the other's

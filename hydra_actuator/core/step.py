@@ -31,7 +31,7 @@ def step(model, state, inputs, passes):
     mesh = (model.courant, model.slope, model.friction)
     move_spools(model, state, inputs)
     continue_beyond_ends(model, state)
-    if model.plain == 1:
+    if len(model.extras) == 0:
         sweep((state.wave_p, state.wave_q), (state.new_p, state.new_q), mesh, model.third_order,
               passes)
     else:
@@ -111,10 +111,10 @@ def arrive(model, state, mesh, stage):
         else:
             state.end_wave[right], state.end_theta[right] = arriving_wave(
                 state.wave_p, state.wave_q, last, 1, mesh, model.third_order, guess)
-        if model.plain == 0 and model.moving[d] == 0:
+        if len(model.extras) > 0 and model.moving[d] == 0:
             lose_to_drag(model, state, left, first, foot_alone)
             lose_to_drag(model, state, right, last, foot_alone)
-        elif model.plain == 0:
+        elif len(model.extras) > 0:
             lose_to_drag(model, state, left, first, foot_alone)
 
 
@@ -140,7 +140,7 @@ def guess_at(state, end, foot_alone, first_pass):
 @formula
 def returned_wave(model, state, end):
     """Return the wave [m/s] that leaves an end after the junctions, and keep its gas pressure."""
-    if model.end_strength[end // 2] == 0.0:
+    if len(model.extras) == 0 or model.end_strength[end // 2] == 0.0:
         return state.end_wave[end] - 2.0 * state.end_velocity[end]
     mu, state.end_star[end] = state_at(end_of(model, state, end), state.end_velocity[end])
     return 2.0 * mu - state.end_wave[end]
@@ -156,7 +156,8 @@ def take_new_level(model, state, passes):
         state.new_q[first] = state.end_wave[left]
         state.new_p[first] = returned_wave(model, state, left)
         returned = returned_wave(model, state, right)
-        state.star[first] = state.end_star[left]
+        if len(model.extras) > 0:
+            state.star[first] = state.end_star[left]
         if model.moving[d] == 1:
             new_last = int(state.length[d] / model.spacing[d])
             if new_last >= 1 and new_last <= model.capacity[d]:
@@ -171,8 +172,9 @@ def take_new_level(model, state, passes):
         else:
             state.new_p[first + new_last] = state.end_wave[right]
             state.new_q[first + new_last] = returned
-            state.star[first + new_last] = state.end_star[right]
-    if model.plain == 0:
+            if len(model.extras) > 0:
+                state.star[first + new_last] = state.end_star[right]
+    if len(model.extras) > 0:
         if model.gas == 1:
             fill_cavities(model, state)
         remember_drag(model, state)

@@ -23,6 +23,7 @@ WAVE_SPEED = 1300.0
 BULK_MODULUS = DENSITY * WAVE_SPEED ** 2
 INPUTS = 4
 OIL = Oil(DENSITY)
+GASSY = Oil(DENSITY, air_fraction=1e-4, floor=1e5)
 
 
 class LoneChain:
@@ -31,9 +32,9 @@ class LoneChain:
     def __init__(self, domains: list[Domain], junctions: list[Junction], mesh: Mesh,
                  oil: Oil = OIL, **records: np.ndarray) -> None:
         """Build the chain at rest; records: valve, piston, source as build_chain takes them."""
-        make_kernels_ready(mesh.iterations)
         self.names = [domain.name for domain in domains]
         self.model, self.state = build_chain(oil, domains, junctions, mesh, **records)
+        make_kernels_ready(mesh.iterations, not self.model.extras)
         self.inputs = np.zeros(INPUTS)
         self._table = np.zeros((1, INPUTS))
         self._held = (np.zeros(1), self._table, True)
@@ -118,15 +119,15 @@ class LoneChain:
 
 
 @cache
-def make_kernels_ready(iterations: int) -> None:
+def make_kernels_ready(iterations: int, plain: bool = True) -> None:
     """Load or compile the kernels for a number of iterations, once in a process."""
     mesh = Mesh(1e-5, iterations=iterations)
     model, state = build_chain(
-        OIL, [Domain('line', 0.1, 1e-4, WAVE_SPEED)],
+        OIL if plain else GASSY, [Domain('line', 0.1, 1e-4, WAVE_SPEED)],
         [Junction(CLOSED, (0,)), Junction(CLOSED, (1,))], mesh)
     inputs = np.zeros(INPUTS)
     schedule = (np.zeros(1), np.zeros((1, INPUTS)), True)
-    with warm_kernels(iterations):
+    with warm_kernels(iterations, plain):
         advance(model, state, (0,) * iterations, schedule, inputs, 0, 1)
         observe(model, state, np.zeros(1, SECTION), 0.0, inputs, np.zeros(10))
         read_field(model, state, 0.0, np.zeros((model.capacity[0] + 1, 2), np.float32))
