@@ -107,6 +107,7 @@ def test_a_file_too_many_makes_the_directory_unfit(cache):
     assert not kernels.is_intact(place)
 
 
+@pytest.mark.soak
 def test_two_processes_at_once_replace_a_broken_cache(cache):
     flip_a_bit(kernel_files(cache)[-1])
     both = [start(cache), start(cache)]
