@@ -6,6 +6,8 @@ from hydra_actuator.verification import (
     cell_crossing,
     conservation,
     free_stream,
+    friction_blocked,
+    friction_transient,
     grid,
     mirror,
     moving_wall,
@@ -26,6 +28,8 @@ CASES: dict[str, Case] = {
     **mirror.CASES,
     **oil_column.CASES,
     **spool_response.CASES,
+    **friction_transient.CASES,
+    **friction_blocked.CASES,
     **passes.CASES,
     **grid.CASES,
 }
