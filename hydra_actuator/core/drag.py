@@ -7,8 +7,10 @@ loses the mean of foot and arrival, J at the foot linear between its two neighbo
 a loop over all nodes with offsets that start at 0, so that it vectorises.
 """
 
+import math
+
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.friction import steady_drag, TERMS
+from hydra_actuator.core.friction import LAST_PLACE, steady_drag, TERMS
 from hydra_actuator.core.line import cubic
 
 
@@ -72,13 +74,50 @@ def return_to_feet(model, state):
 @formula
 def estimate_drag(model, state):
     """Write J [m/s^2] at the velocities of new_p and new_q into new_drag."""
+    take_velocities(state)
+    look_up_damping(model, state)
+    steady_drags(model, state, state.new_drag)
+    if model.unsteady == 1:
+        new_drag, fading, change = state.new_drag, state.fading, state.change
+        for i in range(new_drag.size):
+            new_drag[i] += fading[i] + model.liveliness[i] * change[i]
+
+
+@formula
+def take_velocities(state):
+    """Write u of new_p and new_q [m/s] and its change over the step, by node."""
     new_p, new_q, wave_p, wave_q = state.new_p, state.new_q, state.wave_p, state.wave_q
-    for i in range(state.new_drag.size):
+    for i in range(new_p.size):
         velocity = 0.5 * (new_p[i] - new_q[i])
-        change = velocity - 0.5 * (wave_p[i] - wave_q[i])
-        steady = steady_drag(
-            velocity, model.loss[i], (model.damping, model.table_start[i]), model.table_scale)
-        state.new_drag[i] = steady + state.fading[i] + model.liveliness[i] * change
+        state.velocity[i] = velocity
+        state.change[i] = velocity - 0.5 * (wave_p[i] - wave_q[i])
+
+
+@formula
+def look_up_damping(model, state):
+    """
+    Write h [1/s] at the nodes' velocities; lines without a table keep 0.
+
+    Two loops: the place in the table vectorises, the look-up does not.
+    """
+    if model.tabled == 0:
+        return
+    velocity, place, damping = state.velocity, state.place, model.damping
+    for i in range(place.size):
+        place[i] = min(math.sqrt(abs(velocity[i])) * model.table_scale, LAST_PLACE)
+    for i in range(place.size):
+        k = int(place[i])
+        start = model.table_start[i] + k
+        state.damping[i] = damping[start] + (place[i] - k) * (damping[start + 1] - damping[start])
+
+
+@formula
+def steady_drags(model, state, drag):
+    """Write the steady J [m/s^2] at the nodes' velocities into `drag`."""
+    velocity, damping, loss = state.velocity, state.damping, model.loss
+    for i in range(drag.size):
+        u = velocity[i]
+        drag[i] = u * (0.5 * loss[i] * abs(u) + damping[i])
 
 
 @formula
@@ -93,18 +132,15 @@ def drag_at(model, state, i, velocity):
 @formula
 def remember_drag(model, state):
     """Take the velocities of new_p and new_q as the new level: renew memory and drag."""
-    new_p, new_q, wave_p, wave_q = state.new_p, state.new_q, state.wave_p, state.wave_q
-    change = state.change
-    for i in range(state.drag.size):
-        velocity = 0.5 * (new_p[i] - new_q[i])
-        change[i] = velocity - 0.5 * (wave_p[i] - wave_q[i])
-        state.drag[i] = steady_drag(
-            velocity, model.loss[i], (model.damping, model.table_start[i]), model.table_scale)
+    take_velocities(state)
+    look_up_damping(model, state)
+    steady_drags(model, state, state.drag)
     if model.unsteady == 0:
         return
-    for i in range(state.drag.size):
-        state.drag[i] += model.inertia[i] * change[i]
-        state.fading[i] = 0.0
+    drag, fading, change = state.drag, state.fading, state.change
+    for i in range(drag.size):
+        drag[i] += model.inertia[i] * change[i]
+        fading[i] = 0.0
     for k in range(TERMS):
         remember_term(state, state.memory[k], model.decay[k], model.gain[k])
 

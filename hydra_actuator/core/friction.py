@@ -29,6 +29,7 @@ TERMS = len(DECAY)
 
 # h is tabled over sqrt|u|: exact where it is constant (laminar), dense where transition is.
 TABLE_SIZE = 4096
+LAST_PLACE = TABLE_SIZE - 1.000001
 
 
 def darcy_factor(reynolds: np.ndarray, relative_roughness: float) -> np.ndarray:
@@ -82,7 +83,7 @@ def steady_drag(velocity, loss_coefficient, table, table_scale):
     """
     damping, start = table
     size = abs(velocity)
-    place = min(math.sqrt(size) * table_scale, TABLE_SIZE - 1.000001)
+    place = min(math.sqrt(size) * table_scale, LAST_PLACE)
     k = int(place)
     low = damping[start + k]
     h = low + (place - k) * (damping[start + k + 1] - low)

@@ -213,7 +213,8 @@ def _empty_state(domains: int, nodes: int) -> State:
         face_p=np.zeros(domains),
         face_q=np.zeros((domains, 3)), theta_p=np.zeros(nodes), theta_q=np.zeros(nodes),
         drag=np.zeros(nodes), new_drag=np.zeros(nodes), memory=np.zeros((TERMS, nodes)),
-        fading=np.zeros(nodes), change=np.zeros(nodes), star=np.ones(nodes),
+        fading=np.zeros(nodes), change=np.zeros(nodes), velocity=np.zeros(nodes),
+        place=np.zeros(nodes), damping=np.zeros(nodes), star=np.ones(nodes),
         end_star=np.ones(2 * domains), spool=np.zeros(4), edge_coefficient=np.zeros(4),
         valve_velocity=np.zeros(4), ring=np.zeros((6, 4)), piston=np.zeros(1, PISTON_STATE),
         oil_stored=np.zeros(2), step=np.zeros(1, np.int64), fault=np.zeros(3))

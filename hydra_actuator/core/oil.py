@@ -61,7 +61,7 @@ def friction_constants(oil: Oil, domains: list, step_time: float, fastest: float
         'decay': np.ascontiguousarray(decay[:, of_node]),
         'gain': np.ascontiguousarray(gain[:, of_node]), 'inertia': inertia[of_node],
         'liveliness': (inertia + gain.sum(axis=0))[of_node],
-        'unsteady': int(bool(inertia.any()))}
+        'tabled': int(len(tables) > 1), 'unsteady': int(bool(inertia.any()))}
 
 
 def gas_constants(oil: Oil, wave_speed: np.ndarray, spacing: np.ndarray,

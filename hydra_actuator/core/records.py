@@ -83,6 +83,7 @@ class Model(NamedTuple):
     gain: np.ndarray            # (TERMS, N) of a change of u on it [1/s]
     inertia: np.ndarray         # (N,) of a change of u on the drag [1/s]
     liveliness: np.ndarray      # (N,) inertia and all gains [1/s]
+    tabled: int                 # 1: some line's friction has a table
     unsteady: int               # 1: some line's friction has a memory
     gas: int                    # 1: there is gas in the oil
     strength: np.ndarray        # (N,) of the gas at inner nodes [Pa m/s], 0 at ends
@@ -119,6 +120,9 @@ class State(NamedTuple):
     memory: np.ndarray          # (TERMS, N) of the friction, as drag [m/s^2]
     fading: np.ndarray          # (N,) what the memory will be if u stays [m/s^2]
     change: np.ndarray          # (N,) work: of u in the step [m/s]
+    velocity: np.ndarray        # (N,) work: u at arrival [m/s]
+    place: np.ndarray           # (N,) work: in the tables of damping
+    damping: np.ndarray         # (N,) work: h [1/s]
     star: np.ndarray            # (N,) absolute less vapour pressure where there is gas [Pa]
     end_star: np.ndarray        # (2 D,) the same at the ends
     spool: np.ndarray           # (4,) displacement, velocity of spool 1, of spool 2
@@ -139,6 +143,7 @@ def flip(state):
         state.last, state.length, state.old_length, state.old_velocity, state.end_wave,
         state.end_velocity, state.end_velocity_before, state.end_theta, state.face_p,
         state.face_q, state.theta_p, state.theta_q, state.drag, state.new_drag, state.memory,
-        state.fading, state.change, state.star, state.end_star, state.spool,
+        state.fading, state.change, state.velocity, state.place, state.damping,
+        state.star, state.end_star, state.spool,
         state.edge_coefficient, state.valve_velocity, state.ring, state.piston,
         state.oil_stored, state.step, state.fault)
