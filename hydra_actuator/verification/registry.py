@@ -2,7 +2,9 @@
 """All cases, by name, in the order in which they are told."""
 
 from hydra_actuator.verification import (
+    adelaide,
     budget,
+    cavitation,
     cell_crossing,
     conservation,
     free_stream,
@@ -30,6 +32,8 @@ CASES: dict[str, Case] = {
     **spool_response.CASES,
     **friction_transient.CASES,
     **friction_blocked.CASES,
+    **cavitation.CASES,
+    **adelaide.CASES,
     **passes.CASES,
     **grid.CASES,
 }
