@@ -10,7 +10,6 @@ from dataclasses import dataclass
 import math
 
 from hydra_actuator.assembly import (
-    assemble,
     DOMAINS,
     INPUTS,
     LOAD_FORCE,
@@ -24,6 +23,7 @@ from hydra_actuator.assembly import (
 from hydra_actuator.channels import Channels
 from hydra_actuator.core.advance import advance
 from hydra_actuator.core.observe import NOT_A_NUMBER, observe, read_field, TOO_FAST
+from hydra_actuator.equilibrium import start
 from hydra_actuator.errors import Failure
 from hydra_actuator.kernels import warm_kernels
 from hydra_actuator.parameters import Parameters
@@ -77,7 +77,7 @@ class Actuator:
 
     def reset(self) -> None:
         """Return to the initial state: commands zero, simulated time zero."""
-        self._model, self._state = assemble(self.parameters)
+        self._model, self._state = start(self.parameters)
         self.step_time = self._model.step_time
         self.steps_per_period = round(self.period / self.step_time)
         self._table[:] = 0.0

@@ -11,7 +11,6 @@ from hydra_actuator.parameters.definition import ParameterError, Value
 
 # What is available of each parameter that is restricted.
 AVAILABLE: dict[str, tuple[Value, ...]] = {
-    'initial.equilibrium': (False,),
     'timing.mode': ('realtime',),
     'sensor.position_noise': (0.0,),
     'sensor.velocity_noise': (0.0,),
