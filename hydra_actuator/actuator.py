@@ -10,11 +10,8 @@ from dataclasses import dataclass
 import math
 
 from hydra_actuator.assembly import (
-    DOMAINS,
     INPUTS,
     LOAD_FORCE,
-    section_positions,
-    sections,
     set_supply_pressure,
     SPOOL_1,
     SPOOL_2,
@@ -25,6 +22,7 @@ from hydra_actuator.core.advance import advance
 from hydra_actuator.core.observe import NOT_A_NUMBER, observe, read_field, TOO_FAST
 from hydra_actuator.equilibrium import start
 from hydra_actuator.errors import Failure
+from hydra_actuator.geometry import DOMAINS, section_positions, sections
 from hydra_actuator.kernels import warm_kernels
 from hydra_actuator.parameters import Parameters
 import numpy as np

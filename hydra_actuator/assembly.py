@@ -9,9 +9,7 @@ The second chamber is seen from G towards the piston, so its direction is -1.
 
 import math
 
-from hydra_actuator.channels import STATIONS
 from hydra_actuator.core.model import build_chain, Domain, Junction, Mesh, step_time_within
-from hydra_actuator.core.observe import SECTION
 from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.port import port_coefficient
 from hydra_actuator.core.records import (
@@ -26,32 +24,15 @@ from hydra_actuator.core.records import (
     VALVE,
     VALVE_PARAMETERS,
 )
+from hydra_actuator.core.source import stored_oil
+from hydra_actuator.core.valve import spool_transition
+from hydra_actuator.geometry import domain_lengths, DOMAINS, LINES, origins, wave_speed
 from hydra_actuator.parameters import ParameterError, Parameters
 import numpy as np
 
-DOMAINS = ('supply_line', 'line_1', 'chamber_1', 'chamber_2', 'line_2', 'return_line')
 SPOOL_1, SPOOL_2, LOAD_FORCE, TANK_PRESSURE = range(4)
 INPUTS = 4
-LINES = ('line', 'line_1', 'line_2')
 EDGES = ('pa', 'pb', 'at', 'bt')
-
-# Ends of the chain in the order of the stations: F is the face, G the fixed end of chamber_2.
-END_OF_STATION = dict(zip(STATIONS, (0, 1, 2, 3, 4, 5, 7, 6, 8, 9, 10, 11)))
-
-
-def wave_speed(parameters: Parameters, domain: str = '') -> float:
-    """
-    Return the wave speed [m/s] at gauge zero in a domain, in the oil alone by default.
-
-    c^2 = chi / rho0 / (1 + chi D / (E e)) with the elasticity of a thin wall (Korteweg); the
-    walls of chambers are rigid.
-    """
-    p = parameters
-    softness = 1.0
-    if domain.endswith(LINES) and p[f'{domain}.youngs_modulus'] > 0.0:
-        softness += (p['fluid.bulk_modulus'] * p[f'{domain}.diameter']
-                     / (p[f'{domain}.youngs_modulus'] * p[f'{domain}.wall_thickness']))
-    return math.sqrt(p['fluid.bulk_modulus'] / p['fluid.density'] / softness)
 
 
 def oil(parameters: Parameters) -> Oil:
@@ -60,31 +41,6 @@ def oil(parameters: Parameters) -> Oil:
     return Oil(p['fluid.density'], p['fluid.kinematic_viscosity'],
                p['fluid.air_fraction'] if p['fluid.cavitation'] else 0.0,
                p['ambient_pressure'] - p['fluid.vapour_pressure'])
-
-
-def cylinder_length(parameters: Parameters) -> float:
-    """Return the distance [m] between the fixed ends D and G."""
-    return (parameters['cylinder.dead_length_1'] + parameters['cylinder.stroke']
-            + parameters['cylinder.dead_length_2'])
-
-
-def domain_lengths(parameters: Parameters) -> tuple[float, ...]:
-    """Return the six lengths [m] at the initial position."""
-    half = 0.5 * parameters['cylinder.stroke']
-    position = parameters['initial.position']
-    return (
-        parameters['supply_line.length'], parameters['line_1.length'],
-        parameters['cylinder.dead_length_1'] + half + position,
-        parameters['cylinder.dead_length_2'] + half - position,
-        parameters['line_2.length'], parameters['return_line.length'])
-
-
-def origins(parameters: Parameters) -> tuple[float, ...]:
-    """Return the streamline coordinate [m] of node 0 of the six domains; the pump is 0."""
-    supply, line_1, _, _, line_2, _ = domain_lengths(parameters)
-    port_d = supply + line_1
-    port_g = port_d + cylinder_length(parameters)
-    return 0.0, supply, port_d, port_g, port_g, port_g + line_2
 
 
 def choose_mesh(parameters: Parameters) -> Mesh:
@@ -122,46 +78,8 @@ def assemble(parameters: Parameters) -> tuple[Model, State]:
             valve=_valve(p, mesh.step_time), piston=_piston(p), source=_source(p))
     except ValueError as error:
         raise ParameterError(f'{error}; lengthen it or raise solver.cells') from None
-    _set_piston(p, state)
+    _set_state(p, model.source, state)
     return model, state
-
-
-def sections(parameters: Parameters) -> np.ndarray:
-    """
-    Return the records of the chosen sections, in order.
-
-    Raises ParameterError for a position off the streamline.
-    """
-    names = parameters['sections.names']
-    records = np.zeros(len(names), SECTION)
-    own = iter(parameters['sections.positions'])
-    starts = origins(parameters)
-    total = starts[5] + parameters['return_line.length']
-    for record, name in zip(records, names):
-        record['end'] = END_OF_STATION.get(name, -1)
-        if record['end'] < 0:
-            position = next(own)
-            if not 0.0 <= position <= total:
-                raise ParameterError(
-                    f'sections.positions: {position:g} m of {name!r} is off the streamline, '
-                    f'0 to {total:g} m')
-            inside = starts[2] <= position <= starts[3]
-            record['position'], record['cylinder'] = position, int(inside)
-            lines = [d for d in (0, 1, 4, 5) if starts[d] <= position]
-            record['domain'] = 2 if inside else lines[-1]
-    return records
-
-
-def section_positions(parameters: Parameters, records: np.ndarray) -> list[float]:
-    """Return the streamline coordinate [m] of sections; the piston's faces at mid-stroke."""
-    starts = origins(parameters)
-    middle = starts[2] + (parameters['cylinder.dead_length_1']
-                          + 0.5 * parameters['cylinder.stroke'])
-    total = starts[5] + parameters['return_line.length']
-    of_end = (starts[0], starts[1], starts[1], starts[2], starts[2], middle, starts[3], middle,
-              starts[4], starts[5], starts[5], total)
-    return [of_end[record['end']] if record['end'] >= 0 else float(record['position'])
-            for record in records]
 
 
 def _line_area(p: Parameters, name: str) -> float:
@@ -209,29 +127,6 @@ def _valve(p: Parameters, step_time: float) -> np.ndarray:
     return valve
 
 
-def spool_transition(natural_frequency: float, damping_ratio: float,
-                     step_time: float) -> np.ndarray:
-    """
-    Return the 2 x 2 transition matrix of (deviation, velocity) over one step.
-
-    x'' + 2 zeta omega x' + omega^2 x = 0, omega = 2 pi f [Hz]; scaling and squaring of the series.
-    """
-    omega = 2.0 * math.pi * natural_frequency
-    generator = step_time * np.array(
-        [[0.0, 1.0], [-omega ** 2, -2.0 * damping_ratio * omega]])
-    scale = np.diag([1.0, max(omega, 1e-300)])
-    generator = np.linalg.solve(scale, generator @ scale) if omega > 0.0 else generator
-    halvings = max(0, math.ceil(math.log2(max(np.abs(generator).sum(), 1e-12))) + 1)
-    small = generator / 2 ** halvings
-    result, term = np.eye(2), np.eye(2)
-    for k in range(1, 20):
-        term = term @ small / k
-        result = result + term
-    for _ in range(halvings):
-        result = result @ result
-    return scale @ result @ np.linalg.inv(scale) if omega > 0.0 else result
-
-
 def _piston(p: Parameters) -> np.ndarray:
     piston = np.zeros(1, PISTON_PARAMETERS)
     half = 0.5 * p['cylinder.stroke']
@@ -266,14 +161,12 @@ def set_supply_pressure(source: np.ndarray, pressure: float, speed: float,
     source['mu'] = speed * math.log1p(pressure / bulk_modulus)
 
 
-def _set_piston(p: Parameters, state: State) -> None:
+def _set_state(p: Parameters, source: np.ndarray, state: State) -> None:
     piston = state.piston[0]
     piston['position'] = piston['new_position'] = p['initial.position']
     piston['force'] = (
         p['cylinder.area_1'] * p['initial.pressure_1']
         - p['cylinder.area_2'] * p['initial.pressure_2']
         - p['cylinder.stiffness'] * p['initial.position'])
-    source_ratio = ((p['supply.accumulator_precharge'] + p['ambient_pressure'])
-                    / (p['supply.pressure'] + p['ambient_pressure']))
-    state.oil_stored[:] = p['supply.accumulator_volume'] * max(
-        0.0, 1.0 - source_ratio ** (1.0 / 1.4))
+    state.oil_stored[:] = stored_oil.py_func(
+        p['supply.pressure'], source.view(np.recarray)[0])

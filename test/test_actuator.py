@@ -4,9 +4,9 @@
 import math
 
 from hydra_actuator.actuator import Actuator, SolverError
-from hydra_actuator.assembly import DOMAINS
 from hydra_actuator.channels import Channels, STATIONS
 from hydra_actuator.core.observe import NOT_A_NUMBER, TOO_FAST, TOO_SHORT
+from hydra_actuator.geometry import DOMAINS
 from hydra_actuator.parameters import ParameterError, Parameters
 import numpy as np
 import pytest

@@ -34,7 +34,8 @@ ROOMS = {
     'pacer': (set(), set()),
     'interruption': (set(), set()),
     'verification': (
-        {'verification', 'core', 'kernels', 'assembly', 'actuator', 'simulate', 'parameters'},
+        {'verification', 'core', 'kernels', 'assembly', 'actuator', 'geometry', 'simulate',
+         'parameters'},
         {'numpy', 'scipy'},
     ),
     'ros': None,

@@ -111,7 +111,7 @@ def build_chain(oil: Oil, domains: list[Domain], junctions: list[Junction], mesh
                      for domain in domains])
     strength, end_strength = gas_constants(oil, wave_speed, spacing, mesh.step_time)
     model = Model(
-        step_time=mesh.step_time, max_mach=mesh.max_mach, density=oil.density,
+        step_time=mesh.step_time, max_mach=mesh.max_mach,
         third_order=1.0 if mesh.interpolation == 'cubic' else 0.0,
         origin=np.array([domain.origin for domain in domains]),
         direction=np.array([domain.direction for domain in domains]),

@@ -31,7 +31,7 @@ PISTON_PARAMETERS = np.dtype([
     ('mass', np.float64), ('stiffness', np.float64), ('viscous', np.float64),
     ('coulomb', np.float64), ('breakaway', np.float64), ('stribeck_velocity', np.float64),
     ('leakage', np.float64), ('restitution', np.float64), ('limit', np.float64),
-    ('length_1', np.float64), ('length_2', np.float64), ('density', np.float64)], align=True)
+    ('length_1', np.float64), ('length_2', np.float64)], align=True)
 
 # Changed only between calls (supply pressure is a live parameter).
 SOURCE_PARAMETERS = np.dtype([
@@ -56,7 +56,6 @@ class Model(NamedTuple):
 
     step_time: float
     max_mach: float
-    density: float
     third_order: float
     origin: np.ndarray          # (D,) streamline coordinate of node 0 [m]
     direction: np.ndarray       # (D,) +1, or -1 where the domain is mirrored

@@ -19,6 +19,7 @@ import math
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.end import end_relation
 from hydra_actuator.core.orifice import MOST_PASSES, orifice_drop, settled, solve_orifice
+import numpy as np
 
 A, B, I, J = range(4)
 SOURCES = (A, A, B, I)
@@ -188,6 +189,29 @@ def newton_direction(impedance, defect, slope, coefficient, leakage):
     x_1 = s_1 / e_1 - l_12 * x_2 - l_13 * x_3
     x_0 = r_0 / d_0 - l_1 * x_1 - l_2 * x_2
     return x_0, x_1, x_2, x_3
+
+
+def spool_transition(natural_frequency: float, damping_ratio: float,
+                     step_time: float) -> np.ndarray:
+    """
+    Return the 2 x 2 transition matrix of (deviation, velocity) over one step.
+
+    x'' + 2 zeta omega x' + omega^2 x = 0, omega = 2 pi f [Hz]; scaling and squaring of the series.
+    """
+    omega = 2.0 * math.pi * natural_frequency
+    generator = step_time * np.array(
+        [[0.0, 1.0], [-omega ** 2, -2.0 * damping_ratio * omega]])
+    scale = np.diag([1.0, max(omega, 1e-300)])
+    generator = np.linalg.solve(scale, generator @ scale) if omega > 0.0 else generator
+    halvings = max(0, math.ceil(math.log2(max(np.abs(generator).sum(), 1e-12))) + 1)
+    small = generator / 2 ** halvings
+    result, term = np.eye(2), np.eye(2)
+    for k in range(1, 20):
+        term = term @ small / k
+        result = result + term
+    for _ in range(halvings):
+        result = result @ result
+    return scale @ result @ np.linalg.inv(scale) if omega > 0.0 else result
 
 
 @formula

@@ -13,7 +13,7 @@ the mean pressure, the piston and its spring. Second-order terms scale with the 
 import math
 
 from hydra_actuator.actuator import Actuator, SolverError
-from hydra_actuator.assembly import wave_speed
+from hydra_actuator.geometry import wave_speed
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.verification.case import Case, Row
 from hydra_actuator.verification.harmonics import first_harmonic

@@ -4,11 +4,15 @@
 import cmath
 import math
 
-from hydra_actuator.assembly import spool_transition
 from hydra_actuator.core.end import End
 from hydra_actuator.core.orifice import orifice_drop, solve_orifice
 from hydra_actuator.core.records import VALVE_PARAMETERS
-from hydra_actuator.core.valve import edge_coefficients, move_spool, solve_valve
+from hydra_actuator.core.valve import (
+    edge_coefficients,
+    move_spool,
+    solve_valve,
+    spool_transition,
+)
 import numpy as np
 import pytest
 
