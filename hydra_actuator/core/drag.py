@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The sweep of oil with steady, unsteady friction or gas: as the plain sweep, with drag at nodes.
+The sweep of oil with steady or unsteady friction: as the plain sweep, with drag at nodes.
 
 The drag J [m/s^2] of a node is known at the old level and estimated at arrival; a characteristic
 loses the mean of foot and arrival, J at the foot linear between its two neighbours. Each stage is
@@ -100,8 +100,6 @@ def look_up_damping(model, state):
 
     Two loops: the place in the table vectorises, the look-up does not.
     """
-    if model.tabled == 0:
-        return
     velocity, place, damping = state.velocity, state.place, model.damping
     for i in range(place.size):
         place[i] = min(math.sqrt(abs(velocity[i])) * model.table_scale, LAST_PLACE)
@@ -130,27 +128,53 @@ def drag_at(model, state, i, velocity):
 
 
 @formula
-def remember_drag(model, state):
-    """Take the velocities of new_p and new_q as the new level: renew memory and drag."""
+def remember_drag(model, state, looked_up):
+    """
+    Take the velocities of new_p and new_q as the new level: renew memory and drag.
+
+    looked_up: whether `damping` is that of the velocities a pass ago. It then serves inside the
+    lines (it errs with the change of u from pass to pass, 1e-6 of u), not at the ends.
+    """
     take_velocities(state)
-    look_up_damping(model, state)
+    if not looked_up:
+        look_up_damping(model, state)
     steady_drags(model, state, state.drag)
-    if model.unsteady == 0:
-        return
+    if looked_up:
+        for end in range(2 * model.start.size):
+            d = end // 2
+            i = model.start[d] + (end - 2 * d) * state.last[d]
+            state.drag[i] = steady_drag(
+                state.velocity[i], model.loss[i], (model.damping, model.table_start[i]),
+                model.table_scale)
+    if model.unsteady == 1:
+        remember(model, state)
+
+
+@formula
+def remember(model, state):
+    """Renew the friction's memory at all nodes and add it to the drag, three terms at a time."""
     drag, fading, change = state.drag, state.fading, state.change
     for i in range(drag.size):
         drag[i] += model.inertia[i] * change[i]
         fading[i] = 0.0
-    for k in range(TERMS):
-        remember_term(state, state.memory[k], model.decay[k], model.gain[k])
+    for k in range(0, TERMS, 3):
+        remember_three(state, (state.memory[k], state.memory[k + 1], state.memory[k + 2]),
+                       (model.decay[k], model.decay[k + 1], model.decay[k + 2]),
+                       (model.gain[k], model.gain[k + 1], model.gain[k + 2]))
 
 
 @formula
-def remember_term(state, memory, decay, gain):
-    """Renew one term of the friction's memory at all nodes."""
+def remember_three(state, memory, decay, gain):
+    """Renew three terms at all nodes: one alone reads too often, six do not vectorise."""
     change, drag, fading = state.change, state.drag, state.fading
-    for i in range(memory.size):
-        kept = decay[i] * memory[i] + gain[i] * change[i]
-        memory[i] = kept
-        drag[i] += kept
-        fading[i] += decay[i] * kept
+    y_1, y_2, y_3 = memory
+    decay_1, decay_2, decay_3 = decay
+    gain_1, gain_2, gain_3 = gain
+    for i in range(drag.size):
+        du, d_1, d_2, d_3 = change[i], decay_1[i], decay_2[i], decay_3[i]
+        kept_1 = d_1 * y_1[i] + gain_1[i] * du
+        kept_2 = d_2 * y_2[i] + gain_2[i] * du
+        kept_3 = d_3 * y_3[i] + gain_3[i] * du
+        y_1[i], y_2[i], y_3[i] = kept_1, kept_2, kept_3
+        drag[i] += kept_1 + kept_2 + kept_3
+        fading[i] += d_1 * kept_1 + d_2 * kept_2 + d_3 * kept_3

@@ -8,7 +8,7 @@ cavity; the relation of pressure and flow stays single-valued and falling.
 
 from typing import NamedTuple
 
-from hydra_actuator.core.cavity import gas_balance
+from hydra_actuator.core.cavity import gas_balance, ROUNDS_AT_END
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.fluid import relative_compression
 
@@ -36,6 +36,15 @@ class End(NamedTuple):
 
 
 @formula
+def state_at(end, velocity):
+    """Return (mu [m/s], p* [Pa], 0 without gas) of an end at its outflow velocity [m/s]."""
+    if end.strength > 0.0:
+        return gas_balance((end.wave - velocity, end.held), end.strength, end.floor,
+                           (end.slowness, end.bulk_modulus), ROUNDS_AT_END)
+    return end.wave - velocity, 0.0
+
+
+@formula
 def end_relation(end, velocity):
     """
     Return (pressure, flow, impedance, flatness) of an end at a trial outflow velocity [m/s].
@@ -46,8 +55,7 @@ def end_relation(end, velocity):
     """
     softness = 1.0
     if end.strength > 0.0:
-        _, star = gas_balance(end.wave - velocity, end.held, end.strength, end.floor,
-                              (end.slowness, end.bulk_modulus))
+        _, star = state_at(end, velocity)
         compression = (star - end.floor) / end.bulk_modulus
         steepness = end.bulk_modulus * end.slowness * (1.0 + compression)
         softness = 1.0 / (1.0 + steepness * end.strength / (star * star))
@@ -67,12 +75,3 @@ def velocity_at(end, mu, pressure):
     if end.strength > 0.0:
         return end.wave - mu - end.held + end.strength / (pressure + end.floor)
     return end.wave - mu
-
-
-@formula
-def state_at(end, velocity):
-    """Return (mu [m/s], p* [Pa], 0 without gas) of an end at its outflow velocity [m/s]."""
-    if end.strength > 0.0:
-        return gas_balance(end.wave - velocity, end.held, end.strength, end.floor,
-                           (end.slowness, end.bulk_modulus))
-    return end.wave - velocity, 0.0

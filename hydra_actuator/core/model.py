@@ -12,7 +12,7 @@ import math
 
 from hydra_actuator.core.friction import TERMS
 from hydra_actuator.core.line import GHOSTS, GHOSTS_BEYOND_FACE
-from hydra_actuator.core.oil import friction_constants, gas_constants, is_plain, Oil
+from hydra_actuator.core.oil import friction_constants, gas_constants, has_table, Oil
 from hydra_actuator.core.records import (
     JUNCTION,
     Model,
@@ -106,8 +106,8 @@ def build_chain(oil: Oil, domains: list[Domain], junctions: list[Junction], mesh
         np.full(SPARE, count - 1)))
     wave_speed = np.array([domain.wave_speed for domain in domains])
     area = np.array([domain.area for domain in domains])
-    plain = is_plain(oil, domains)
-    loss = np.array([domain.loss_coefficient if plain and domain.friction != 'none' else 0.0
+    tabled = has_table(domains)
+    loss = np.array([domain.loss_coefficient if domain.friction == 'constant' else 0.0
                      for domain in domains])
     strength, end_strength = gas_constants(oil, wave_speed, spacing, mesh.step_time)
     model = Model(
@@ -122,8 +122,9 @@ def build_chain(oil: Oil, domains: list[Domain], junctions: list[Junction], mesh
         inverse_area=1.0 / area,
         courant=(wave_speed * mesh.step_time / spacing)[of_node],
         slope=(0.5 * mesh.step_time / spacing)[of_node],
-        friction=(0.125 * mesh.step_time * loss)[of_node],
-        extras=() if plain else (1,), gas=int(oil.air_fraction > 0.0), floor=oil.floor,
+        friction=(0.125 * mesh.step_time * (not tabled) * loss)[of_node],
+        extras=(1,) if tabled or oil.air_fraction > 0.0 else (),
+        gas=int(oil.air_fraction > 0.0), floor=oil.floor, tabled=int(tabled),
         **friction_constants(
             oil, domains, mesh.step_time, mesh.max_mach * float(np.max(wave_speed)), of_node),
         strength=_inner(strength, of_node, start, capacity, moving), end_strength=end_strength,

@@ -61,7 +61,7 @@ def friction_constants(oil: Oil, domains: list, step_time: float, fastest: float
         'decay': np.ascontiguousarray(decay[:, of_node]),
         'gain': np.ascontiguousarray(gain[:, of_node]), 'inertia': inertia[of_node],
         'liveliness': (inertia + gain.sum(axis=0))[of_node],
-        'tabled': int(len(tables) > 1), 'unsteady': int(bool(inertia.any()))}
+        'unsteady': int(bool(inertia.any()))}
 
 
 def gas_constants(oil: Oil, wave_speed: np.ndarray, spacing: np.ndarray,
@@ -76,7 +76,6 @@ def gas_constants(oil: Oil, wave_speed: np.ndarray, spacing: np.ndarray,
     return 0.5 * held * wave_speed, 0.5 * held * spacing / step_time
 
 
-def is_plain(oil: Oil, domains: list) -> bool:
-    """Return whether no domain needs more than a constant loss coefficient and no gas acts."""
-    return oil.air_fraction == 0.0 and all(
-        domain.friction in ('none', 'constant') for domain in domains)
+def has_table(domains: list) -> bool:
+    """Return whether a domain needs more than a constant loss coefficient."""
+    return any(domain.friction in ('steady', 'unsteady') for domain in domains)

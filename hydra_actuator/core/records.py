@@ -82,7 +82,7 @@ class Model(NamedTuple):
     gain: np.ndarray            # (TERMS, N) of a change of u on it [1/s]
     inertia: np.ndarray         # (N,) of a change of u on the drag [1/s]
     liveliness: np.ndarray      # (N,) inertia and all gains [1/s]
-    tabled: int                 # 1: some line's friction has a table
+    tabled: int                 # 1: some line's friction has a table, 0: `friction` has it all
     unsteady: int               # 1: some line's friction has a memory
     gas: int                    # 1: there is gas in the oil
     strength: np.ndarray        # (N,) of the gas at inner nodes [Pa m/s], 0 at ends

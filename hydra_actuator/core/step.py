@@ -31,7 +31,7 @@ def step(model, state, inputs, passes):
     mesh = (model.courant, model.slope, model.friction)
     move_spools(model, state, inputs)
     continue_beyond_ends(model, state)
-    if len(model.extras) == 0:
+    if len(model.extras) == 0 or model.tabled == 0:
         sweep((state.wave_p, state.wave_q), (state.new_p, state.new_q), mesh, model.third_order,
               passes)
     else:
@@ -111,11 +111,9 @@ def arrive(model, state, mesh, stage):
         else:
             state.end_wave[right], state.end_theta[right] = arriving_wave(
                 state.wave_p, state.wave_q, last, 1, mesh, model.third_order, guess)
-        if len(model.extras) > 0 and model.moving[d] == 0:
+        if len(model.extras) > 0 and model.tabled == 1 and model.moving[d] == 0:
             lose_to_drag(model, state, left, first, foot_alone)
             lose_to_drag(model, state, right, last, foot_alone)
-        elif len(model.extras) > 0:
-            lose_to_drag(model, state, left, first, foot_alone)
 
 
 @formula
@@ -177,7 +175,8 @@ def take_new_level(model, state, passes):
     if len(model.extras) > 0:
         if model.gas == 1:
             fill_cavities(model, state)
-        remember_drag(model, state)
+        if model.tabled == 1:
+            remember_drag(model, state, len(passes) > 1)
     motion = state.piston[0]
     motion.position, motion.velocity = motion.new_position, motion.new_velocity
     motion.force = motion.new_force

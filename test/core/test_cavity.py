@@ -3,7 +3,7 @@
 
 import math
 
-from hydra_actuator.core.cavity import gas_balance
+from hydra_actuator.core.cavity import gas_balance, ROUNDS_AT_END
 from hydra_actuator.core.model import Domain, Junction, Mesh
 from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.records import CLOSED, PRESSURE
@@ -16,6 +16,7 @@ import pytest
 DENSITY, SPEED = 860.0, 1300.0
 MODULUS = DENSITY * SPEED ** 2
 FLOOR = 101325.0 - 10.0
+OIL = (1.0 / SPEED, MODULUS)
 
 
 @given(st.floats(-2e7, 6e7), st.floats(-7.0, -1.0), st.floats(1.0, 8.0))
@@ -23,14 +24,14 @@ def test_oil_and_gas_agree_on_one_pressure(pressure, exponent, star_exponent):
     strength = 0.5 * SPEED * 10.0 ** exponent * FLOOR
     held = min(strength / 10.0 ** star_exponent, 2.0 * SPEED)
     free = SPEED * math.log1p(pressure / MODULUS)
-    mu, star = gas_balance(free, held, strength, FLOOR, (1.0 / SPEED, MODULUS))
+    mu, star = gas_balance((free, held), strength, FLOOR, OIL, ROUNDS_AT_END)
     assert star > 0.0
     assert mu == pytest.approx(free - held + strength / star, rel=1e-9, abs=1e-9)
     assert MODULUS * math.expm1(mu / SPEED) + FLOOR == pytest.approx(star, rel=1e-6, abs=1e-3)
 
 
 def test_without_gas_the_oil_keeps_its_wave():
-    mu, _ = gas_balance(7.0, 0.0, 0.0, FLOOR, (1.0 / SPEED, MODULUS))
+    mu, _ = gas_balance((7.0, 0.0), 0.0, FLOOR, OIL, ROUNDS_AT_END)
     assert mu == pytest.approx(7.0, rel=1e-12)
 
 
