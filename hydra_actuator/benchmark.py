@@ -2,16 +2,17 @@
 """
 How fast the solver is on this machine, beside a bare sweep of the same mesh in the same run.
 
-The machine may be shared and noisy, so the two are timed in turn, in short pieces; the ratio of
-the medians is the figure to compare between machines, the smallest piece the nearest to a
-machine of its own.
+The machine may be shared and noisy, so what is compared is timed in turn, in short pieces; the
+ratio of the medians is the figure to compare between machines, the smallest piece the nearest to
+a machine of its own.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 import math
 import time
 
-from hydra_actuator.actuator import Actuator
+from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.core.compilation import kernel
 from hydra_actuator.core.line import sweep
 from hydra_actuator.parameters import Parameters
@@ -19,6 +20,25 @@ import numpy as np
 
 PIECE = 5              # ticks in one timed piece
 FREQUENCY = 50.0       # [Hz] of the full-stroke sine
+WARM_UP = 0.05         # [s]
+
+_LINES = ('supply_line', 'line_1', 'line_2', 'return_line')
+# What each option of the physics adds to the model it is compared with.
+OPTIONS = {
+    'steady friction': {f'{line}.friction': 'steady' for line in _LINES},
+    'unsteady friction': {f'{line}.friction': 'unsteady' for line in _LINES},
+    'cavitation': {'fluid.cavitation': True},
+    'elastic walls': {f'{line}.youngs_modulus': 2.1e11 for line in _LINES},
+    'accumulator': {'supply.accumulator_volume': 1e-3},
+    'four edges (underlap, leakage)': {
+        **{f'valve.overlap_{edge}': -1e-5 for edge in ('pa', 'pb', 'at', 'bt')},
+        'valve.leakage': 1e-13},
+    'spool dynamics': {'valve.natural_frequency': 200.0, 'valve.slew_rate': 0.5},
+    'piston friction': {'cylinder.coulomb_friction': 100.0, 'cylinder.static_friction': 200.0},
+    'piston leakage': {'cylinder.leakage': 1e-13},
+}
+EVERYTHING = {name: value for option in ('unsteady friction', *OPTIONS)
+              if option != 'steady friction' for name, value in OPTIONS[option].items()}
 
 
 @dataclass(frozen=True)
@@ -63,20 +83,56 @@ def measure_speed(parameters: Parameters | None = None, duration: float = 2.0) -
     bare = (fields, (fields[0].copy(), fields[1].copy()),
             (model.courant, model.slope, model.friction), actuator._passes)
     repeat_sweep(*bare, 1)
-    commands = [math.sin(2.0 * math.pi * FREQUENCY * k * actuator.period)
-                for k in range(math.ceil(duration / actuator.period))]
-    warm = math.ceil(0.05 / actuator.period)
-    for command in commands[:warm]:
-        actuator.tick_once(command, command, 0.0)
+    _drive(actuator, math.ceil(WARM_UP / actuator.period))
     steps = PIECE * actuator.steps_per_period
     times, bare_times = [], []
-    for start in range(warm, len(commands) - PIECE + 1, PIECE):
+    for _ in range(_pieces(actuator, duration)):
         began = time.perf_counter()
-        for command in commands[start:start + PIECE]:
-            actuator.tick_once(command, command, 0.0)
+        _drive(actuator, PIECE)
         ended = time.perf_counter()
         repeat_sweep(*bare, steps)
         times.append((ended - began) / steps)
         bare_times.append((time.perf_counter() - ended) / steps)
     return Speed(np.sort(times), np.sort(bare_times), actuator.step_time,
                  int(np.sum(state.last + 1 + model.moving)))
+
+
+def measure_options(parameters: Parameters | None = None, duration: float = 1.0,
+                    progress: Callable[[float], None] | None = None) -> dict[str, np.ndarray]:
+    """
+    Return the time of a step [s], shape (pieces,), of a model and of it with each option added.
+
+    parameters: of that model, the paper's by default; duration: simulated time [s] of each;
+    progress is told the part that is done. The models are timed in turn, piece by piece, on the
+    drive of `measure_speed`, by the processor's time of this thread.
+    """
+    model = Parameters().replace({'tank.pressure': 0.0}) if parameters is None else parameters
+    choices = {'as configured': {}, **OPTIONS, 'everything': EVERYTHING}
+    actuators = {name: Actuator(model.replace(choice)) for name, choice in choices.items()}
+    for actuator in actuators.values():
+        _drive(actuator, math.ceil(WARM_UP / actuator.period))
+    pieces = _pieces(next(iter(actuators.values())), duration)
+    times = {name: np.empty(pieces) for name in choices}
+    for k in range(pieces):
+        for name, actuator in actuators.items():
+            began = time.thread_time()
+            _drive(actuator, PIECE)
+            steps = PIECE * actuator.steps_per_period
+            times[name][k] = (time.thread_time() - began) / steps
+        if progress is not None:
+            progress((k + 1) / pieces)
+    return times
+
+
+def _pieces(actuator: Actuator, duration: float) -> int:
+    """Return how many pieces fit into a duration [s], the warm-up taken off, at least one."""
+    return max(1, math.floor((duration - WARM_UP) / actuator.period / PIECE))
+
+
+def _drive(actuator: Actuator, ticks: int) -> None:
+    """Advance by ticks under the sine; SolverError where the method breaks."""
+    for _ in range(ticks):
+        command = math.sin(2.0 * math.pi * FREQUENCY * actuator.tick * actuator.period)
+        code = actuator.tick_once(command, command, 0.0)
+        if code:
+            raise SolverError(actuator.status_message(code))

@@ -3,7 +3,9 @@
 
 import argparse
 import math
+import statistics
 
+from hydra_actuator.cli.progress import ProgressBar
 from hydra_actuator.errors import InputError
 
 SUMMARY = 'speed of the solver'
@@ -15,6 +17,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help='ROS parameter file; default: the reference size')
     parser.add_argument('--duration', type=float, default=5.0, metavar='T',
                         help='simulated time to measure over [s] (default 5)')
+    parser.add_argument('--options', action='store_true',
+                        help='what each option of the physics costs, as a ratio in one run')
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -23,6 +27,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(f'--duration {arguments.duration:g} s is below 0.2 s')
     from hydra_actuator.parameters import load_parameters
     parameters = load_parameters(*arguments.config)
+    if arguments.options:
+        return _options(parameters if arguments.config else None, arguments.duration)
     from hydra_actuator.benchmark import measure_speed
     speed = measure_speed(parameters, arguments.duration)
     print(f'{speed.nodes} nodes, {1.0 / speed.step_time:,.0f} steps per simulated second, '
@@ -41,3 +47,16 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _row(name: str, times) -> str:
     return f'{name:<24}{times[0]:12.3f}{times[len(times) // 2]:12.3f}{times[-1]:12.3f}'
+
+
+def _options(parameters, duration: float) -> int:
+    """Print the table of what each option costs; `parameters` None is the paper's model."""
+    from hydra_actuator.benchmark import measure_options
+    with ProgressBar('bench') as progress:
+        times = measure_options(parameters, duration, progress)
+    plain = times['as configured']
+    print(f'{"":<32}{"step [us], median":>20}{"times as configured":>22}')
+    for name, column in times.items():
+        ratio = statistics.median(column / plain)
+        print(f'{name:<32}{statistics.median(column) * 1e6:20.2f}{ratio:22.2f}')
+    return 0
