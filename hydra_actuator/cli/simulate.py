@@ -3,9 +3,8 @@
 
 import argparse
 import math
-import os
-from pathlib import Path
 
+from hydra_actuator.cli.output import refuse_output
 from hydra_actuator.cli.progress import ProgressBar
 from hydra_actuator.errors import InputError
 
@@ -71,19 +70,7 @@ def _check(arguments: argparse.Namespace) -> None:
         raise InputError('--amplitude goes with --sine, --step or --chirp')
     if arguments.hold and not arguments.command:
         raise InputError('--hold goes with --command')
-    _refuse_output(arguments.output)
-
-
-def _refuse_output(output: str) -> None:
-    """Raise InputError for what cannot become a directory, before long work for it begins."""
-    path = Path(os.path.abspath(output))
-    if os.path.lexists(path):
-        raise InputError(f'{path} exists already, and nothing is overwritten')
-    parent = next(parent for parent in path.parents if os.path.lexists(parent))
-    if not os.path.isdir(parent):
-        raise InputError(f'{path} cannot be made: {parent} is not a directory')
-    if not os.access(parent, os.W_OK | os.X_OK):
-        raise InputError(f'{path} cannot be made: {parent} is not writable')
+    refuse_output(arguments.output)
 
 
 def _built_in(arguments: argparse.Namespace, duration: float):
