@@ -35,8 +35,8 @@ ROOMS = {
     'interruption': (set(), set()),
     'verification': (
         {'verification', 'core', 'kernels', 'assembly', 'actuator', 'geometry', 'simulate',
-         'parameters'},
-        {'numpy', 'scipy'},
+         'parameters', 'analysis'},
+        {'numpy', 'scipy', 'matplotlib'},
     ),
     'ros': None,
     'cli': None,
@@ -139,6 +139,13 @@ def test_command_line_loads_nothing_heavy_on_import(path):
 def test_solver_reaches_neither_output_nor_analysis(path):
     if room(path) in ('actuator', 'assembly', 'kernels'):
         assert not own_rooms(imported(path)) & {'recording', 'analysis', 'ros', 'cli', 'pacer'}
+
+
+@pytest.mark.parametrize('path', sorted((PACKAGE / 'verification').glob('*.py')), ids=label)
+def test_verification_takes_only_colours_from_analysis(path):
+    names = {name for name in imported(path) if name.startswith('hydra_actuator.analysis')}
+    assert all(name.startswith('hydra_actuator.analysis.palette') for name in names)
+    assert 'matplotlib' not in foreign(imported(path, everywhere=False))
 
 
 @pytest.mark.parametrize('path', SOURCES, ids=label)

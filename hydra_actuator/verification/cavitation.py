@@ -7,6 +7,7 @@ the line. At inner nodes the field holds the waves that leave a node, whose mean
 pressure while its gas grows: pressures are read from the gas, p = p* + p_v.
 """
 
+from functools import cache
 import math
 
 from hydra_actuator.core.model import Domain, Junction
@@ -30,6 +31,11 @@ FLOOR = AMBIENT - VAPOUR_PRESSURE
 HEAD, SPEED, CLOSURE = 0.5e6, 0.8, 2e-3
 TRACE_OF_GAS, DURATION = 1e-7, 0.04
 COURANTS = (0.7, 0.9, 0.975)
+MIXTURES = ((1e-3, 1e6), (1e-2, 5e6), (1e-4, 2e5))     # share of gas, gauge pressure [Pa]
+CELLS = 200
+# [kg]: a sum over nodes knows a front's place, rise rho c u, to within a cell
+FRONT = DENSITY * AREA * LENGTH / CELLS * SPEED / WAVE_SPEED
+SPEED_BAR, VAPOUR_BAR, PATTERN_BAR = 1e-3, 50.0, 5e-3
 
 
 def lone_line(ends: tuple[int, int], air_fraction: float, mesh: dict,
@@ -55,22 +61,28 @@ def gas_volumes(chain: LoneChain, air_fraction: float, d: int = 0) -> np.ndarray
     return air_fraction * model.floor * oil / above_vapour(chain, d)
 
 
+def mixture_speed(share: float, pressure: float) -> float:
+    """Return the wave speed [m/s] of oil with a share of gas at gauge pressure 0, at another."""
+    star = pressure + FLOOR
+    alpha = share * FLOOR / star
+    stiff = DENSITY * (1.0 + pressure / BULK_MODULUS) * WAVE_SPEED ** 2
+    return WAVE_SPEED / math.sqrt(1.0 + stiff * alpha / star)
+
+
 def gas_wave_speed() -> list[Row]:
     """Time the quarter wave of a line whose oil carries gas, at a swing of 1e-7."""
     rows = []
-    for share, pressure in ((1e-3, 1e6), (1e-2, 5e6), (1e-4, 2e5)):
+    for share, pressure in MIXTURES:
         for courant in COURANTS:
-            star = pressure + FLOOR
-            alpha = share * FLOOR / star
-            stiff = DENSITY * (1.0 + pressure / BULK_MODULUS) * WAVE_SPEED ** 2
-            exact = WAVE_SPEED / math.sqrt(1.0 + stiff * alpha / star)
+            exact = mixture_speed(share, pressure)
             rows.append(Row(
                 'gas_wave_speed', f'{share:g} of gas, {pressure / 1e6:g} MPa, Courant {courant}',
-                'm/s', exact, quarter_wave_speed(share, pressure, courant, exact), 1e-3, True,
+                'm/s', exact, quarter_wave_speed(share, pressure, courant, exact), SPEED_BAR, True,
                 'lumping gas at 200 nodes costs less'))
     return rows
 
 
+@cache
 def quarter_wave_speed(share: float, pressure: float, courant: float, guess: float) -> float:
     """Return the wave speed [m/s] at which an open-closed line rings about a pressure [Pa]."""
     chain = lone_line((PRESSURE, CLOSED), share, {'cells': 200, 'courant': courant},
@@ -100,20 +112,26 @@ def close_valve(chain: LoneChain) -> None:
     chain.step(HEAD, flow * max(0.0, 1.0 - after / CLOSURE))
 
 
+@cache
+def boil(courant: float) -> tuple[np.ndarray, ...]:
+    """Return time [s], lowest p - p_v anywhere, and p - p_v at the valve [Pa] of a slam."""
+    chain, trace = slammed_line(200, courant), []
+    while chain.time < DURATION:
+        close_valve(chain)
+        trace.append((chain.time, float(above_vapour(chain).min()), chain.end_pressure(1) + FLOOR))
+    return tuple(np.array(trace).T)
+
+
 def vapour_pressure() -> list[Row]:
     """Slam a line until it boils and look for its lowest pressure at any node and step."""
     rows = []
     for courant in COURANTS:
-        chain = slammed_line(200, courant)
-        lowest, at_valve = math.inf, math.inf
-        while chain.time < DURATION:
-            close_valve(chain)
-            lowest = min(lowest, float(above_vapour(chain).min()))
-            at_valve = min(at_valve, chain.end_pressure(1) + FLOOR)
+        _, lowest, at_valve = boil(courant)
         for where, star in (('anywhere', lowest), ('at the valve, by its waves', at_valve)):
             rows.append(Row(
-                'vapour_pressure', f'lowest p - p_v {where}, Courant {courant}', 'Pa', 50.0, star,
-                50.0, False, 'never below 0, and 0.1 % of ambient where it boils'))
+                'vapour_pressure', f'lowest p - p_v {where}, Courant {courant}', 'Pa', VAPOUR_BAR,
+                float(star.min()), VAPOUR_BAR, False,
+                'never below 0, and 0.1 % of ambient where it boils'))
     return rows
 
 
@@ -135,11 +153,12 @@ def mass_flow(chain: LoneChain) -> np.ndarray:
     return AREA * oil_density(chain)[[0, -1]] * outflow
 
 
+@cache
 def weigh(cells: int, courant: float) -> np.ndarray:
     """
     Return a row at every step of a slammed line.
 
-    Columns: in - out - stored [kg], gas [m^3], throughput [kg].
+    Columns: in - out - stored [kg], gas [m^3], throughput [kg], time [s].
     """
     chain = slammed_line(cells, courant)
     before, mass = mass_flow(chain), oil_mass(chain)
@@ -152,17 +171,16 @@ def weigh(cells: int, courant: float) -> np.ndarray:
         moved += mean
         throughput += abs(mean[0])
         gas = float(gas_volumes(chain, TRACE_OF_GAS).sum())
-        rows.append((moved[0] - moved[1] - oil_mass(chain) + mass, gas, throughput))
+        rows.append((moved[0] - moved[1] - oil_mass(chain) + mass, gas, throughput,
+                     chain.time))
     return np.array(rows)
 
 
 def cavity_mass() -> list[Row]:
     """Weigh the oil that cavities displace, and what is left when all have collapsed."""
-    cells, rows = 200, []
-    # a sum over nodes knows a front's place, rise rho c u, to within a cell
-    front = DENSITY * AREA * LENGTH / cells * SPEED / WAVE_SPEED
+    cells, rows, front = CELLS, [], FRONT
     for courant in COURANTS:
-        missing, gas, throughput = weigh(cells, courant).T
+        missing, gas, throughput, _ = weigh(cells, courant).T
         most = int(np.argmax(gas))
         rows += [
             Row('cavity_mass', f'gas against oil displaced, Courant {courant}', 'ml',
@@ -184,22 +202,31 @@ def alternation(values: np.ndarray) -> float:
     return float(abs(np.mean(bend * (-1.0) ** np.arange(len(bend)))) / np.mean(values))
 
 
+@cache
+def growing_zone(courant: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """
+    Return (time [s], alternation in the zone that boils beside the valve), and gas [m^3] at last.
+
+    The gas is that of the nodes from the valve, its own half cell left out.
+    """
+    chain, history, gas = slammed_line(200, courant), [], np.zeros(0)
+    while chain.time < 6.6e-3:
+        close_valve(chain)
+        if chain.time > 5.5e-3:
+            gas = gas_volumes(chain, TRACE_OF_GAS)[-2::-1]
+            zone = int(np.argmin(gas > 0.2 * gas[0]))
+            history.append((chain.time,
+                            alternation(gas[1:zone - 2]) if zone > 8 else math.nan))
+    time, size = np.array(history).T
+    return time, size, gas
+
+
 def alternate_nodes() -> list[Row]:
     """Compare every other node of the zone that boils beside the valve, while it grows."""
-    rows = []
-    for courant in COURANTS:
-        chain, worst = slammed_line(200, courant), 0.0
-        while chain.time < 6.6e-3:
-            close_valve(chain)
-            if chain.time > 5.5e-3:
-                gas = gas_volumes(chain, TRACE_OF_GAS)[-2::-1]
-                zone = int(np.argmin(gas > 0.2 * gas[0]))
-                worst = max(worst, alternation(gas[1:zone - 2]) if zone > 8 else math.nan)
-        rows.append(Row(
-            'alternate_nodes', f'gas of odd against even nodes, Courant {courant}', 'of mean',
-            0.0, worst, 5e-3, False,
-            'a pattern would be of order one; what is left falls with the cell'))
-    return rows
+    return [Row('alternate_nodes', f'gas of odd against even nodes, Courant {courant}', 'of mean',
+                0.0, float(growing_zone(courant)[1].max()), PATTERN_BAR, False,
+                'a pattern would be of order one; what is left falls with the cell')
+            for courant in COURANTS]
 
 
 CASES = {

@@ -8,6 +8,8 @@ The partial cell's length repeats with v/dx. An error that depends on it would s
 there, and, as it modulates the tone, at the sum and the difference of both.
 """
 
+from functools import cache
+
 from hydra_actuator.core.model import Domain, Junction
 from hydra_actuator.core.records import ORIFICE, PRESSURE, WALL
 from hydra_actuator.verification.case import Case, Row
@@ -18,6 +20,7 @@ from hydra_actuator.verification.chains import (
     mesh_of,
     WAVE_SPEED,
 )
+from hydra_actuator.verification.drawing import bar, ORANGE, SOLVER
 import numpy as np
 
 LENGTH = 1.0
@@ -28,8 +31,10 @@ CELLS = 100
 TONE, AMPLITUDE = 317.0, 1e6
 RISE, DURATION = 0.02, 0.19
 FACE = 3
+BAR = 1e-8
 
 
+@cache
 def face_pressure(interpolation: str) -> tuple[np.ndarray, float, float]:
     """Return (gauge pressure [Pa] at the face, step time [s], crossing frequency [Hz])."""
     mesh = mesh_of(LENGTH, CELLS, interpolation=interpolation)
@@ -76,7 +81,7 @@ def cell_crossing() -> list[Row]:
     """Look for lines where the mesh would put them."""
     rows = []
     for name, (height, excess) in lines('cubic').items():
-        rows.append(Row('cell_crossing', f'line at {name}', 'of the tone', 0.0, height, 1e-8,
+        rows.append(Row('cell_crossing', f'line at {name}', 'of the tone', 0.0, height, BAR,
                         False, 'skirts of the window are below 1e-9'))
         if name == 'v/dx':
             rows.append(Row(
@@ -85,4 +90,33 @@ def cell_crossing() -> list[Row]:
     return rows
 
 
-CASES = {'cell_crossing': Case(cell_crossing, 'no line where a face crosses cells')}
+def draw_cell_crossing(figure) -> None:
+    """Draw the spectrum, with first-order interpolation as what the lines would look like."""
+    axes = figure.subplots()
+    for interpolation, style in (
+            ('linear', {'color': ORANGE, 'linewidth': 1.0, 'alpha': 0.8,
+                        'label': 'first-order interpolation, for comparison'}),
+            ('cubic', {**SOLVER, 'label': 'solver (cubic interpolation)'})):
+        trace, step_time, crossing = face_pressure(interpolation)
+        frequency, amplitude = spectrum(trace, step_time)
+        axes.plot(frequency, amplitude / amplitude.max(), **style)
+    for name, place in (('tone', TONE), ('2 tone', 2.0 * TONE), ('3 tone', 3.0 * TONE),
+                        ('v/dx', crossing), ('v/dx\n- tone', crossing - TONE),
+                        ('v/dx\n+ tone', crossing + TONE)):
+        axes.axvline(place, color='#c3c9cf', linewidth=0.8, zorder=0)
+        axes.annotate(name, (place, 1.0), xycoords=('data', 'axes fraction'), ha='center',
+                      va='bottom', fontsize=8)
+    bar(axes, BAR, label='tolerance of a line')
+    axes.set_yscale('log')
+    axes.set_xlim(0.0, 1200.0)
+    axes.set_ylim(1e-12, 3.0)
+    axes.set_xlabel('frequency [Hz]')
+    axes.set_ylabel('pressure at the face, over the tone')
+    axes.grid(True)
+    axes.legend(loc='upper right')
+
+
+CASES = {
+    'cell_crossing': Case(cell_crossing, 'no line where a face crosses cells',
+                          figure=draw_cell_crossing),
+}

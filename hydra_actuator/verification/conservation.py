@@ -8,6 +8,8 @@ weights of sixth order, so that they do not hide or add to the method's own erro
     rho (e + u^2/2),  e = (chi/rho0)(ln r + 1/r - 1),  r = rho/rho0
 """
 
+from functools import cache
+
 from hydra_actuator.core.model import Domain, Junction, set_domain
 from hydra_actuator.core.records import CLOSED
 from hydra_actuator.verification.case import Case, Row
@@ -19,12 +21,17 @@ from hydra_actuator.verification.chains import (
     riemann_variable,
     WAVE_SPEED,
 )
+from hydra_actuator.verification.drawing import bar, EXACT_LINE, SERIES
 import numpy as np
 
 LENGTH = 2.0
 AREA = 2e-4
 MEAN = 10e6
 COURANT = 1.0 / 1.025
+DRIFT_BAR = 1e-9        # of the mass, while the wave is smooth
+# mass that fronts add, over the energy they lose: see closed_line
+FRONT_GAIN = 0.5 * ((2.0 * COURANT - 1.0) / (COURANT * (1.0 - COURANT)) - 1.0)
+PARTS = 100             # of a closed line's run, with a weighing after each
 # what the trapezoid lacks at each end, in the end's differences of first to fourth order (Gregory)
 GREGORY = (1.0 / 12.0, -1.0 / 24.0, 19.0 / 720.0, -3.0 / 160.0)
 
@@ -70,18 +77,25 @@ def closed_line(duration: float = 10.0) -> list[Row]:
         drift, _ = mass_drift(0.1e6, cells, duration)
         rows.append(Row(
             'closed_line', f'mass drift in {duration:g} s, +-0.1 MPa, {cells} cells', 'of mass',
-            0.0, drift, 1e-9, False, 'third order: the wave stays smooth'))
+            0.0, drift, DRIFT_BAR, False, 'third order: the wave stays smooth'))
     for cells in (200, 400):
         drift, damped = mass_drift(1.5e6, cells, duration)
-        gain = 0.5 * ((2.0 * COURANT - 1.0) / (COURANT * (1.0 - COURANT)) - 1.0)
         rows.append(Row(
             'closed_line', f'mass drift in {duration:g} s, +-1.5 MPa, {cells} cells', 'of mass',
-            gain * damped, drift, 0.1, True, 'linear theory of what interpolating a front adds'))
+            FRONT_GAIN * damped, drift, 0.1, True,
+            'linear theory of what interpolating a front adds'))
     return rows
 
 
 def mass_drift(amplitude: float, cells: int, duration: float) -> tuple[float, float]:
     """Return (mass gained, wave energy over c^2 lost) by a closed line; amplitude [Pa]."""
+    _, drift, damped = drift_history(amplitude, cells, duration)
+    return float(drift[-1]), float(damped[-1])
+
+
+@cache
+def drift_history(amplitude: float, cells: int, duration: float) -> tuple[np.ndarray, ...]:
+    """Return time [s], mass gained and wave energy over c^2 lost, from first to last."""
     mesh = mesh_of(LENGTH, cells, COURANT)
     chain = LoneChain([Domain('line', LENGTH, AREA, WAVE_SPEED)],
                       [Junction(CLOSED, (0,)), Junction(CLOSED, (1,))], mesh)
@@ -89,8 +103,13 @@ def mass_drift(amplitude: float, cells: int, duration: float) -> tuple[float, fl
         MEAN + amplitude * np.cos(np.pi * chain.positions(0) / LENGTH))
     set_domain(chain.model, chain.state, 0, mu, mu)
     mass, energy = stored(chain, mass_density, 0), wave_energy(chain)
-    chain.advance(round(duration / mesh.step_time))
-    return stored(chain, mass_density, 0) / mass - 1.0, energy - wave_energy(chain)
+    ends = np.linspace(0, round(duration / mesh.step_time), PARTS + 1).round().astype(int)
+    history = [(0.0, 0.0, 0.0)]
+    for steps in np.diff(ends):
+        chain.advance(int(steps))
+        history.append((chain.time, stored(chain, mass_density, 0) / mass - 1.0,
+                        energy - wave_energy(chain)))
+    return tuple(np.array(history).T)
 
 
 def wave_energy(chain: LoneChain) -> float:
@@ -100,4 +119,33 @@ def wave_energy(chain: LoneChain) -> float:
     return integral((p - mean) ** 2 + (q - mean) ** 2, 0.25 / (len(p) - 1)) / WAVE_SPEED ** 2
 
 
-CASES = {'closed_line': Case(closed_line, 'oil kept by a line without outlet', 'slow')}
+def draw_closed_line(figure, duration: float = 10.0) -> None:
+    """Draw mass gained over time: a smooth wave, and one that becomes a front."""
+    above, below = figure.subplots(2, sharex=True)
+    for cells, colour, dashes in ((200, SERIES[0], '-'), (400, SERIES[1], '--')):
+        for axes, amplitude in ((above, 0.1e6), (below, 1.5e6)):
+            time, drift, damped = drift_history(amplitude, cells, duration)
+            if axes is below:
+                axes.plot(time, FRONT_GAIN * damped, **{
+                    **EXACT_LINE, 'label': 'linear theory' if cells == 200 else '_'})
+            shown = np.abs(drift[1:]) if axes is above else drift[1:]
+            axes.plot(time[1:], shown, dashes, color=colour, linewidth=1.2,
+                      label=f'solver, {cells} cells')
+    bar(above, DRIFT_BAR)
+    above.set_yscale('log')
+    above.set_ylim(1e-16, 1e-7)
+    above.set_title(r'first mode of $\pm$0.1 MPa: stays smooth', loc='left')
+    below.set_title(r'first mode of $\pm$1.5 MPa: steepens to a front', loc='left')
+    above.set_ylabel('|mass gained|, of all')
+    below.set_ylabel('mass gained, of all')
+    below.set_xlabel('time [s]')
+    for axes in (above, below):
+        axes.grid(True)
+        axes.legend(ncols=4, loc='upper left')
+    below.set_ylim(top=6.5e-6)
+
+
+CASES = {
+    'closed_line': Case(closed_line, 'oil kept by a line without outlet', 'slow',
+                        draw_closed_line),
+}

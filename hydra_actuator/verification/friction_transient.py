@@ -8,6 +8,7 @@ The flow is so small (1 um/s) that nothing nonlinear is left of it. The steady f
 run up: a linear fall of pressure, 8 nu u/r^2 of drag at each node, no memory.
 """
 
+from functools import cache
 import math
 
 from hydra_actuator.core.model import Domain, Junction, set_domain
@@ -15,6 +16,14 @@ from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.records import CLOSED, FLOW, PRESSURE
 from hydra_actuator.verification.case import Case, Row
 from hydra_actuator.verification.chains import LoneChain, mesh_of
+from hydra_actuator.verification.drawing import (
+    band,
+    EXACT_LINE,
+    EXACT_POINT,
+    SIMPLER,
+    SOLVER,
+    SOLVER_POINT,
+)
 from hydra_actuator.verification.friction_laplace import stopped_flow
 import numpy as np
 
@@ -25,6 +34,7 @@ AREA = math.pi * RADIUS ** 2
 VELOCITY = 1e-6
 CELLS = 200
 UNIT = 'Zc Q0'
+LAST = 20.0             # [L/c], of a run
 
 # t c/L: p'/(Zc Q0) at Dn = nu L/(c r^2) = 0.0028, 0.0067, 0.05
 EXACT = {
@@ -52,14 +62,18 @@ ANOTHER, ANOTHER_TOLERANCE = 0.015, 0.006
 FINE_TIMES = tuple(k / 4 for k in range(1, 80) if k % 8)
 
 
-def transient() -> list[Row]:
-    """Stop the flow at each tabled dissipation number; one row each, its worst time."""
-    rows = []
-    for k, (dissipation, tolerance) in enumerate(DISSIPATION.items()):
-        exact = {time: values[k] for time, values in EXACT.items()}
-        rows.append(worst_row(dissipation, exact, tolerance))
+def references() -> dict[float, tuple[dict[float, float], float]]:
+    """Return by dissipation number: the exact pressure by time [L/c], and its tolerance."""
+    found = {dissipation: ({time: values[k] for time, values in EXACT.items()}, tolerance)
+             for k, (dissipation, tolerance) in enumerate(DISSIPATION.items())}
     exact = {time: stopped_flow(time, ANOTHER) for time in FINE_TIMES}
-    return [*rows, worst_row(ANOTHER, exact, ANOTHER_TOLERANCE)]
+    return {**found, ANOTHER: (exact, ANOTHER_TOLERANCE)}
+
+
+def transient() -> list[Row]:
+    """Stop the flow at each dissipation number; one row each, its worst time."""
+    return [worst_row(dissipation, *reference)
+            for dissipation, reference in references().items()]
 
 
 def worst_row(dissipation: float, exact: dict[float, float], tolerance: float) -> Row:
@@ -75,16 +89,22 @@ def worst_row(dissipation: float, exact: dict[float, float], tolerance: float) -
 
 def stopped_pressure(times, dissipation: float, friction: str = 'unsteady',
                      cells: int = CELLS) -> np.ndarray:
-    """Return p'(L)/(Zc Q0) [-] at times [L/c], with friction 'steady' or 'unsteady'."""
+    """Return p'(L)/(Zc Q0) [-] at times [L/c] up to LAST, friction 'steady' or 'unsteady'."""
+    return np.interp(times, *stopped_trace(dissipation, friction, cells))
+
+
+@cache
+def stopped_trace(dissipation: float, friction: str = 'unsteady',
+                  cells: int = CELLS) -> tuple[np.ndarray, np.ndarray]:
+    """Return time [L/c] and p'(L)/(Zc Q0) [-] at each step after the stop."""
     chain = poiseuille_flow(dissipation, CLOSED, friction, cells)
     before = chain.end_pressure(1)
     trace = [(0.0, before)]
-    for _ in range(math.ceil(max(times) * LENGTH / SPEED / chain.model.step_time)):
+    for _ in range(math.ceil(LAST * LENGTH / SPEED / chain.model.step_time)):
         chain.step(0.0)
         trace.append((chain.time, chain.end_pressure(1)))
     time, pressure = np.array(trace).T
-    return np.interp(times, time * SPEED / LENGTH,
-                     (pressure - before) / (DENSITY * SPEED * VELOCITY))
+    return time * SPEED / LENGTH, (pressure - before) / (DENSITY * SPEED * VELOCITY)
 
 
 def poiseuille_flow(dissipation: float, far_end: int = FLOW, friction: str = 'unsteady',
@@ -102,6 +122,39 @@ def poiseuille_flow(dissipation: float, far_end: int = FLOW, friction: str = 'un
     return chain
 
 
+def draw_transient(figure) -> None:
+    """Draw the pressure at each dissipation number, and the error at the times compared."""
+    found = sorted(references().items())
+    panels = figure.subplots(len(found), 2, sharex=True, width_ratios=(2.2, 1.0))
+    inside = np.array((0.02, 0.1, 0.3, 0.6, 1.0, 1.4, 1.7, 1.9, 1.98))
+    for (axes, errors), (dissipation, (exact, tolerance)) in zip(panels, found):
+        for front in range(0, int(LAST), 2):
+            times = front + inside
+            axes.plot(times, [stopped_flow(time, dissipation) for time in times], **{
+                **EXACT_LINE, 'label': '_' if front else 'exact'})
+        time, pressure = stopped_trace(dissipation, 'steady')
+        axes.plot(time, pressure, **{**SIMPLER, 'label': 'steady friction alone'})
+        time, pressure = stopped_trace(dissipation)
+        axes.plot(time, pressure, **{**SOLVER, 'label': 'solver'})
+        if dissipation in DISSIPATION:
+            axes.plot(list(exact), list(exact.values()), **{
+                **EXACT_POINT, 'markersize': 5, 'label': 'exact, as tabled'})
+        axes.set_ylabel("p' / (Zc Q0)")
+        axes.set_title(f'Dn = {dissipation:g}', loc='left')
+        times = np.array(list(exact))
+        errors.plot(times, stopped_pressure(times, dissipation) - np.array(list(exact.values())),
+                    **{**SOLVER_POINT, 'markersize': 5})
+        band(errors, tolerance)
+        errors.set_title('error', loc='left')
+        for one in (axes, errors):
+            one.grid(True)
+    panels[0, 0].legend(ncols=4, loc='lower right', bbox_to_anchor=(1.0, 1.0), borderpad=0,
+                        columnspacing=1.0, handlelength=1.3)
+    for axes in panels[-1]:
+        axes.set_xlabel('time after the stop [L/c]')
+
+
 CASES = {
-    'friction_transient': Case(transient, 'laminar flow stopped at once, unsteady friction'),
+    'friction_transient': Case(transient, 'laminar flow stopped at once, unsteady friction',
+                               figure=draw_transient),
 }

@@ -15,6 +15,14 @@ from functools import cache
 from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.verification.case import Case, Row
+from hydra_actuator.verification.drawing import (
+    cells_axis,
+    MARKERS,
+    MILLI,
+    SERIES,
+    slope,
+    TOLERANCE,
+)
 from hydra_actuator.verification.spool_response import soft_step
 import numpy as np
 
@@ -22,6 +30,7 @@ CELLS = (100, 200, 400, 800)
 REFERENCE = 3200
 FREQUENCY = 50.0
 CLOSURE = 0.5e-3
+POSITION_BAR = 5e-8     # [m], at 200 cells
 
 
 def offset_sine(times: np.ndarray) -> np.ndarray:
@@ -87,18 +96,19 @@ def converge(command: Callable, duration: float) -> Convergence:
     return Convergence(*np.array(errors).T)
 
 
-def _bars(name: str, found: Convergence, pressure_bar: float, reason: str) -> list[Row]:
+def _bars(name: str, found: Convergence, pressure_bar: float, reason: str,
+          which: str = '') -> list[Row]:
     """Return the errors at 200 cells against their bars, and the position's orders."""
     at = CELLS.index(200)
     rows = [
-        Row(name, 'position at 200 cells', 'm', 0.0, float(found.position[at]), 5e-8, False,
-            'the bar of the converged solution'),
-        Row(name, 'pressures at 200 cells', 'Pa', 0.0, float(found.pressure[at]), pressure_bar,
-            False, reason),
+        Row(name, f'{which}position at 200 cells', 'm', 0.0, float(found.position[at]),
+            POSITION_BAR, False, 'the bar of the converged solution'),
+        Row(name, f'{which}pressures at 200 cells', 'Pa', 0.0, float(found.pressure[at]),
+            pressure_bar, False, reason),
     ]
     for coarse, order in zip(CELLS, found.position_orders):
-        rows.append(Row(name, f'order of the position, {coarse} to {2 * coarse} cells', '-', 2.0,
-                        float(order), 0.2, False, 'second order; at least 1.8 is asked'))
+        rows.append(Row(name, f'{which}order of the position, {coarse} to {2 * coarse} cells', '-',
+                        2.0, float(order), 0.2, False, 'second order; at least 1.8 is asked'))
     return rows
 
 
@@ -123,17 +133,73 @@ def grid_closing_valve() -> list[Row]:
     """Close the valve in 0.5 ms, softly and at constant speed."""
     name = 'grid_closing_valve'
     soft, straight = converge(smooth_closure, 0.04), converge(straight_closure, 0.04)
-    rows = _bars(f'{name}, soft', soft, 1e3, 'a thousandth of the 1.1 MPa it raises')
-    rows += _bars(f'{name}, straight', straight, 2e4,
-                  'corners of the fronts are first order: 1.5 % of 1.1 MPa')[:2]
+    rows = _bars(name, soft, 1e3, 'a thousandth of the 1.1 MPa it raises', 'soft: ')
+    rows += _bars(name, straight, 2e4, 'corners of the fronts are first order: 1.5 % of 1.1 MPa',
+                  'straight: ')[:2]
     for coarse, order in zip(CELLS, straight.pressure_orders):
-        rows.append(Row(f'{name}, straight', f'order of the pressures, {coarse} to {2 * coarse} '
-                        'cells', '-', 1.0, float(order), 0.3, False, 'corners: first order'))
+        rows.append(Row(name, f'straight: order of the pressures, {coarse} to {2 * coarse} cells',
+                        '-', 1.0, float(order), 0.3, False, 'corners: first order'))
     return rows
 
 
+def draw_errors(figure, shown: tuple[float, float],
+                runs: dict[str, tuple[Callable, float, float, float]]) -> None:
+    """
+    Draw commands, as far as shown (from, to) [s], and errors over cells.
+
+    runs: by name (command, duration [s], bar of the pressures [Pa], their order).
+    """
+    command_axes, left, right = figure.subplots(1, 3)
+    for axes in (left, right):
+        cells_axis(axes, CELLS)
+    for k, (name, (command, duration, pressure_bar, order)) in enumerate(runs.items()):
+        found, style = converge(command, duration), {
+            'color': SERIES[k], 'marker': MARKERS[k], 'linewidth': 1.2, 'label': name}
+        times = np.linspace(*shown, 1201)
+        command_axes.plot(MILLI * times, command(times), color=SERIES[k], linewidth=1.2,
+                          label=name)
+        left.plot(CELLS, found.position, **style)
+        right.plot(CELLS, found.pressure, **style)
+        slope(right, CELLS, 1.6 * found.pressure[0], order, f'order {order:g}')
+        right.plot(200, pressure_bar, color=SERIES[k], marker='_', markersize=16,
+                   markeredgewidth=2.0, linestyle='none', label=f'tolerance, {name}')
+    slope(left, CELLS, 1.6 * found.position[0], 2.0, 'order 2')
+    left.plot(200, POSITION_BAR, color=TOLERANCE['color'], marker='_', markersize=16,
+              markeredgewidth=2.0, linestyle='none', label='tolerance')
+    command_axes.set_title('spool command, of full stroke', loc='left')
+    command_axes.set_xlabel('time [ms]')
+    command_axes.grid(True)
+    left.set_title(f'position against {REFERENCE} cells', loc='left')
+    left.set_ylabel('largest error [m]')
+    right.set_title(f'pressures at O to K against {REFERENCE} cells', loc='left')
+    right.set_ylabel('largest error [Pa]')
+    left.legend(loc='lower left')
+    right.legend(loc='lower left')
+    if len(runs) > 1:
+        command_axes.legend()
+
+
+def draw_without_reversal(figure) -> None:
+    """Draw the errors under the offset sine."""
+    draw_errors(figure, (0.0, 0.06), {'offset sine': (offset_sine, 0.06, 200.0, 2.0)})
+
+
+def draw_with_reversal(figure) -> None:
+    """Draw the errors under the full-stroke sine."""
+    draw_errors(figure, (0.0, 0.06), {'full-stroke sine': (full_sine, 0.06, 8e3, 1.0)})
+
+
+def draw_closing_valve(figure) -> None:
+    """Draw the errors under both closures."""
+    draw_errors(figure, (0.0198, 0.0208), {
+        'soft': (smooth_closure, 0.04, 1e3, 2.0), 'straight': (straight_closure, 0.04, 2e4, 1.0)})
+
+
 CASES = {
-    'grid_without_reversal': Case(grid_without_reversal, 'convergence, offset sine'),
-    'grid_with_reversal': Case(grid_with_reversal, 'convergence, sine that reverses the valve'),
-    'grid_closing_valve': Case(grid_closing_valve, 'convergence, a valve closes in 0.5 ms'),
+    'grid_without_reversal': Case(grid_without_reversal, 'convergence, offset sine',
+                                  figure=draw_without_reversal),
+    'grid_with_reversal': Case(grid_with_reversal, 'convergence, sine that reverses the valve',
+                               figure=draw_with_reversal),
+    'grid_closing_valve': Case(grid_closing_valve, 'convergence, a valve closes in 0.5 ms',
+                               figure=draw_closing_valve),
 }

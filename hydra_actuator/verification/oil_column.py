@@ -11,6 +11,7 @@ nothing nonlinear is left of it: a frequency shifts with the square of it.
 """
 
 from dataclasses import dataclass
+from functools import cache
 import math
 
 from hydra_actuator.core.model import Domain, Junction, Mesh, set_domain, step_time_within
@@ -18,6 +19,7 @@ from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.records import CLOSED, PISTON, PISTON_PARAMETERS
 from hydra_actuator.verification.case import Case, Row
 from hydra_actuator.verification.chains import LoneChain
+from hydra_actuator.verification.drawing import EXACT_LINE, MILLI, SIMPLER, SOLVER
 from hydra_actuator.verification.harmonics import fit_oscillation
 import numpy as np
 
@@ -27,6 +29,7 @@ MACH = 0.01
 AMPLITUDE = 2e-5        # of the shorter chamber's length
 PERIODS = 20
 SAMPLES = 40            # in a period
+SHOWN_PERIODS = 4       # in a figure
 
 
 @dataclass(frozen=True)
@@ -58,15 +61,22 @@ class Column:
 
     def measured_frequency(self, cells: int) -> float:
         """Return the solver's frequency [rad/s], on `cells` cells over both chambers."""
-        omega = self.exact_frequency()
-        chain, samples = _chain(self, cells, 2.0 * math.pi / omega)
-        _deflect(chain, self, omega)
-        steps = round(2.0 * math.pi / omega / chain.model.step_time) // samples
-        trace = np.empty((PERIODS * samples, 2))
-        for row in trace:
-            chain.advance(steps)
-            row[:] = chain.time, chain.state.piston[0]['position']
-        return fit_oscillation(*trace.T, omega)[0]
+        return fit_oscillation(*swing(self, cells), self.exact_frequency())[0]
+
+
+@cache
+def swing(column: Column, cells: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return time [s] and piston position [m] over PERIODS, from the first mode at rest."""
+    omega = column.exact_frequency()
+    chain, samples = _chain(column, cells, 2.0 * math.pi / omega)
+    _deflect(chain, column, omega)
+    steps = round(2.0 * math.pi / omega / chain.model.step_time) // samples
+    trace = np.empty((PERIODS * samples, 2))
+    for row in trace:
+        chain.advance(steps)
+        row[:] = chain.time, chain.state.piston[0]['position']
+    time, position = trace.T
+    return time, position
 
 
 def _chain(column: Column, cells: int, period: float) -> tuple[LoneChain, int]:
@@ -107,6 +117,8 @@ SYMMETRIC = (
     (2e-3, 1.0, 2.0, 1358.2738),
 )
 CELLS = 200
+UNEQUAL = Column((2e-3, 1e-3), (0.3, 0.7), 4.0)
+HEAVY = Column((2e-3, 1e-3), (0.1, 0.15), 200.0)
 
 
 def oil_column() -> list[Row]:
@@ -121,8 +133,7 @@ def oil_column() -> list[Row]:
 def oil_column_unequal() -> list[Row]:
     """Let it swing on unequal columns, and heavy on short ones, where lumping is right."""
     name = 'oil_column_unequal'
-    unequal = Column((2e-3, 1e-3), (0.3, 0.7), 4.0)
-    heavy = Column((2e-3, 1e-3), (0.1, 0.15), 200.0)
+    unequal, heavy = UNEQUAL, HEAVY
     got = heavy.measured_frequency(CELLS)
     return [
         Row(name, 'light piston, exact', 'rad/s', unequal.exact_frequency(),
@@ -134,7 +145,44 @@ def oil_column_unequal() -> list[Row]:
     ]
 
 
+def draw_oil_column(figure) -> None:
+    """Draw the swing on equal columns."""
+    _draw_swings(figure, [Column((area, area), (length, length), mass)
+                          for area, length, mass, _ in SYMMETRIC])
+
+
+def draw_oil_column_unequal(figure) -> None:
+    """Draw the swing on unequal columns."""
+    _draw_swings(figure, [UNEQUAL, HEAVY])
+
+
+def _draw_swings(figure, columns: list[Column]) -> None:
+    """Draw the last periods of each swing, where an error of the frequency shows as a shift."""
+    for axes, column in zip(figure.subplots(len(columns)), columns):
+        omega, lumped = column.exact_frequency(), column.lumped_frequency()
+        time, position = swing(column, CELLS)
+        shift = 1e6 * AMPLITUDE * min(column.lengths)
+        shown = time > (PERIODS - SHOWN_PERIODS) * 2.0 * np.pi / omega
+        time, position = MILLI * time[shown], 1e6 * position[shown]
+        axes.plot(time, shift * np.cos(omega * time / MILLI), **{
+            **EXACT_LINE, 'label': f'exact, {omega:.4f} rad/s'})
+        got = column.measured_frequency(CELLS)
+        axes.plot(time, position, **{**SOLVER, 'label': f'solver, {got:.4f} rad/s'})
+        axes.plot(time, shift * np.cos(lumped * time / MILLI), label=(
+            f'lumped oil, {lumped:.4f} rad/s'), **SIMPLER)
+        areas, lengths = ({f'{one:g}': None for one in pair}
+                          for pair in (column.areas, column.lengths))
+        axes.set_title(f'A {" and ".join(areas)} m$^2$, L {" and ".join(lengths)} m, '
+                       f'M {column.mass:g} kg', loc='left')
+        axes.set_ylabel('piston position [\u00b5m]')
+        axes.legend(loc='lower right', bbox_to_anchor=(1.0, 1.0), ncols=3, borderpad=0)
+        axes.grid(True)
+    axes.set_xlabel(f'time [ms], the last {SHOWN_PERIODS} of {PERIODS} periods')
+
+
 CASES = {
-    'oil_column': Case(oil_column, 'a piston swings on two columns of oil'),
-    'oil_column_unequal': Case(oil_column_unequal, 'the same with unequal areas and lengths'),
+    'oil_column': Case(oil_column, 'a piston swings on two columns of oil',
+                       figure=draw_oil_column),
+    'oil_column_unequal': Case(oil_column_unequal, 'the same with unequal areas and lengths',
+                               figure=draw_oil_column_unequal),
 }

@@ -2,29 +2,29 @@
 """All cases, by name, in the order in which they are told."""
 
 from hydra_actuator.verification import (
-    adelaide,
-    budget,
-    cavitation,
     cell_crossing,
     conservation,
+    figure_adelaide,
+    figure_budget,
+    figure_cavitation,
+    figure_moving_wall,
+    figure_waves,
     free_stream,
     friction_blocked,
     friction_transient,
     grid,
     mirror,
-    moving_wall,
     oil_column,
     passes,
     spool_response,
-    waves,
 )
 from hydra_actuator.verification.case import Case
 
 CASES: dict[str, Case] = {
-    **waves.CASES,
+    **figure_waves.CASES,
     **conservation.CASES,
-    **budget.CASES,
-    **moving_wall.CASES,
+    **figure_budget.CASES,
+    **figure_moving_wall.CASES,
     **free_stream.CASES,
     **cell_crossing.CASES,
     **mirror.CASES,
@@ -32,8 +32,8 @@ CASES: dict[str, Case] = {
     **spool_response.CASES,
     **friction_transient.CASES,
     **friction_blocked.CASES,
-    **cavitation.CASES,
-    **adelaide.CASES,
+    **figure_cavitation.CASES,
+    **figure_adelaide.CASES,
     **passes.CASES,
     **grid.CASES,
 }

@@ -4,7 +4,7 @@
 from dataclasses import replace
 import math
 
-from hydra_actuator.verification.case import failures, Row
+from hydra_actuator.verification.case import failures, Row, worst
 import pytest
 
 ROW = Row('case', 'rise', 'Pa', 200.0, 201.0, 0.01, True, 'made up')
@@ -33,3 +33,19 @@ def test_failures_show_the_row_with_its_figures():
 def test_nothing_verified_is_an_error():
     with pytest.raises(ValueError, match='no rows'):
         failures([])
+
+
+def test_the_worst_row_is_nearest_to_its_own_tolerance():
+    wide = replace(ROW, got=210.0, tolerance=0.5)
+    assert worst([wide, ROW]) is ROW
+    assert worst([ROW, replace(ROW, got=300.0, tolerance=10.0)]) is ROW
+
+
+@pytest.mark.parametrize('got', [math.nan, 2.0])
+def test_nan_and_a_count_that_is_off_are_worse_than_all(got):
+    off = replace(ROW, expected=1.0, got=got, relative=False, tolerance=0.0)
+    assert worst([replace(ROW, got=300.0), off, ROW]) is off
+
+
+def test_a_count_that_is_right_uses_nothing_of_its_tolerance():
+    assert replace(ROW, got=200.0, relative=False, tolerance=0.0).used == 0.0
