@@ -8,7 +8,7 @@ BIN := .venv/bin
 # already put their libraries on LD_LIBRARY_PATH.
 unexport PYTHONPATH PYTHONHOME AMENT_PREFIX_PATH LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: demo test soak bench picture venv clean
+.PHONY: demo test soak bench picture tables venv clean
 
 demo: venv
 	$(BIN)/hydra_actuator demo
@@ -31,6 +31,11 @@ picture: venv
 	  -o build/picture
 	$(BIN)/python -c "from hydra_actuator.analysis.picture import write_picture; \
 	  write_picture('build/picture', 'docs/run.png')"
+
+# The tables of parameters and of cases, in the README and docs/verify.md.
+tables: venv
+	$(BIN)/python -m hydra_actuator.parameters.markdown README.md
+	$(BIN)/python -m hydra_actuator.verification.markdown README.md docs/verify.md
 
 venv: .venv/installed
 
