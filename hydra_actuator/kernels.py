@@ -9,7 +9,7 @@ not match their manifest is thrown away. Without a writable place the kernels ar
 """
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, ExitStack
 import hashlib
 import json
 import os
@@ -30,9 +30,12 @@ import numpy as np
 
 KERNELS = (advance, observe, read_field)
 MANIFEST = 'manifest.json'
-MOST_KEPT = 8
+MOST_KEPT = 24
 UNFINISHED = 'new-'
 LONGEST_COMPILATION = 3600.0
+
+# What this process has in memory: the caches it once used or filled.
+_at_hand: set[str] = set()
 
 
 @contextmanager
@@ -40,28 +43,54 @@ def warm_kernels(passes: int, plain: bool = True) -> Iterator[None]:
     """
     Let the kernels called inside come from the disk, or be compiled and kept there.
 
-    passes: solver iterations; plain: whether the model has no extras; the kernels are specialised
-    for both. The caller calls each kernel once inside the context, so that nothing compiles
-    afterwards.
+    passes: solver iterations, for which `advance` is specialised; plain: whether the model has no
+    extras, for which all are. The caller calls each kernel once inside the context, so that
+    nothing compiles afterwards.
     """
-    place = cache_root() / cache_key(passes, plain)
+    with ExitStack() as stack:
+        for members, key in _groups(passes, plain):
+            stack.enter_context(_warm(members, key))
+        yield
+
+
+def cache_keys(passes: int, plain: bool = True) -> list[str]:
+    """Return the names of the directories that `warm_kernels` uses."""
+    return [key for _, key in _groups(passes, plain)]
+
+
+def _groups(passes: int, plain: bool) -> tuple[tuple[tuple, str], ...]:
+    """Return (kernels, name of their directory): what is specialised alike lies together."""
+    return (
+        ((advance,), cache_key('advance', passes, plain)),
+        ((observe, read_field), cache_key('observe', plain)))
+
+
+@contextmanager
+def _warm(members: tuple, key: str) -> Iterator[None]:
+    place = cache_root() / key
+    if key in _at_hand:
+        # Nothing will be compiled, so nothing could be kept.
+        yield
+        return
     if is_intact(place):
-        _attach(place)
+        _attach(members, place)
         try:
             yield
+            _at_hand.add(key)
         finally:
-            _detach()
+            _detach(members)
         return
     workshop = _workshop(place)
     if workshop is None:
         yield
         return
     try:
-        _attach(workshop)
+        _attach(members, workshop)
         yield
         _publish(workshop, place)
+        _at_hand.add(key)
     finally:
-        _detach()
+        _detach(members)
         shutil.rmtree(workshop, ignore_errors=True)
 
 
@@ -92,11 +121,11 @@ def digest_of_sources(folder: Path) -> str:
 SOURCES = digest_of_sources(Path(hydra_actuator.core.__file__).parent)
 
 
-def cache_key(passes: int, plain: bool = True) -> str:
-    """Return the name of the directory that fits sources, versions and processor."""
+def cache_key(*specialised: object) -> str:
+    """Return the name of the directory that fits sources, versions, processor and all given."""
     about = (SOURCES, sys.version, numba.__version__, llvmlite.__version__, np.__version__,
              llvmlite.binding.get_host_cpu_name(),
-             llvmlite.binding.get_host_cpu_features().flatten(), passes, plain)
+             llvmlite.binding.get_host_cpu_features().flatten(), *specialised)
     return hashlib.sha256(repr(about).encode()).hexdigest()[:32]
 
 
@@ -146,16 +175,16 @@ def _prune(root: Path) -> None:
         shutil.rmtree(entry, ignore_errors=True)
 
 
-def _attach(place: Path) -> None:
+def _attach(members: tuple, place: Path) -> None:
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = str(place)
     try:
-        for kernel in KERNELS:
+        for kernel in members:
             kernel.enable_caching()
     finally:
         numba.config.CACHE_DIR = before
 
 
-def _detach() -> None:
-    for kernel in KERNELS:
+def _detach(members: tuple) -> None:
+    for kernel in members:
         kernel._cache = NullCache()

@@ -30,8 +30,8 @@ def compiled(tmp_path_factory) -> Path:
     """Return a cache directory with the kernels of this version in it."""
     Actuator()
     root = tmp_path_factory.mktemp('kernels')
-    key = kernels.cache_key(PASSES)
-    shutil.copytree(kernels.cache_root() / key, root / key)
+    for key in kernels.cache_keys(PASSES):
+        shutil.copytree(kernels.cache_root() / key, root / key)
     return root
 
 
@@ -84,9 +84,13 @@ def empty(file: Path) -> None:
 
 @pytest.mark.parametrize('spoil', [truncate, flip_a_bit, empty, Path.unlink])
 def test_a_spoiled_file_makes_the_whole_directory_unfit(cache, spoil):
-    place = cache / kernels.cache_key(PASSES)
+    for key in kernels.cache_keys(PASSES):
+        spoil_each_file_of(cache / key, spoil)
+
+
+def spoil_each_file_of(place: Path, spoil) -> None:
     assert kernels.is_intact(place)
-    for file in kernel_files(cache):
+    for file in kernel_files(place):
         content = file.read_bytes()
         spoil(file)
         assert not kernels.is_intact(place), file.name
@@ -96,28 +100,54 @@ def test_a_spoiled_file_makes_the_whole_directory_unfit(cache, spoil):
 
 @pytest.mark.parametrize('manifest', ['', '{}', '[]', 'null', '{"a": "b"}', '{'])
 def test_a_spoiled_manifest_makes_the_directory_unfit(cache, manifest):
-    place = cache / kernels.cache_key(PASSES)
+    place = cache / kernels.cache_keys(PASSES)[0]
     (place / kernels.MANIFEST).write_text(manifest)
     assert not kernels.is_intact(place)
 
 
 def test_a_file_too_many_makes_the_directory_unfit(cache):
-    place = cache / kernels.cache_key(PASSES)
+    place = cache / kernels.cache_keys(PASSES)[0]
     (place / 'more').write_text('of it')
     assert not kernels.is_intact(place)
 
 
 @pytest.mark.soak
 def test_two_processes_at_once_replace_a_broken_cache(cache):
-    flip_a_bit(kernel_files(cache)[-1])
+    for key in kernels.cache_keys(PASSES):
+        flip_a_bit(kernel_files(cache / key)[-1])
     both = [start(cache), start(cache)]
     for process in both:
         ready, total, position = finish(process)
         assert ready == total == len(kernels.KERNELS)
         assert position == position_here()
-    assert kernels.is_intact(cache / kernels.cache_key(PASSES))
+    assert all(kernels.is_intact(cache / key) for key in kernels.cache_keys(PASSES))
     assert not list(cache.glob(f'{kernels.UNFINISHED}*'))
     assert finish(start(cache)) == (0, 0, position_here())
+
+
+BOTH = """
+from hydra_actuator.actuator import Actuator
+from hydra_actuator.kernels import compilations
+from hydra_actuator.parameters import Parameters
+for iterations in {iterations}:
+    Actuator(Parameters().replace({{'solver.iterations': iterations}})).advance(0.001)
+print(compilations())
+"""
+
+
+def compiled_in_a_process(cache: Path, iterations: tuple[int, ...]) -> int:
+    """Return how many kernels a process compiles that makes actuators of these iterations."""
+    out = subprocess.run(
+        [sys.executable, '-c', BOTH.format(iterations=iterations)], cwd=REPOSITORY, check=True,
+        env=os.environ | {'HYDRA_ACTUATOR_CACHE': str(cache)}, capture_output=True, text=True)
+    return int(out.stdout)
+
+
+@pytest.mark.soak
+def test_kernels_of_another_number_of_passes_are_kept_whole(cache):
+    assert compiled_in_a_process(cache, (PASSES, PASSES - 1)) == 1
+    assert compiled_in_a_process(cache, (PASSES - 1,)) == 0
+    assert compiled_in_a_process(cache, (PASSES - 1, PASSES)) == 0
 
 
 def test_without_a_writable_place_the_actuator_still_works(tmp_path, monkeypatch):
@@ -147,16 +177,17 @@ def test_any_changed_or_added_source_changes_what_the_key_is_made_of(core_elsewh
 
 
 def test_sources_and_passes_are_in_the_key(monkeypatch):
-    before = kernels.cache_key(PASSES)
-    assert kernels.cache_key(PASSES + 1) != before
+    before = kernels.cache_keys(PASSES)
+    assert kernels.cache_keys(PASSES + 1)[0] not in before
+    assert not set(kernels.cache_keys(PASSES, False)) & set(before)
     monkeypatch.setattr(kernels, 'SOURCES', 'other')
-    assert kernels.cache_key(PASSES) != before
+    assert not set(kernels.cache_keys(PASSES)) & set(before)
 
 
 def test_the_key_is_that_of_the_sources_this_process_runs(core_elsewhere, monkeypatch):
-    before = kernels.cache_key(PASSES)
+    before = kernels.cache_keys(PASSES)
     monkeypatch.setattr(hydra_actuator.core, '__file__', str(core_elsewhere / '__init__.py'))
-    assert kernels.cache_key(PASSES) == before
+    assert kernels.cache_keys(PASSES) == before
 
 
 def test_cache_lies_where_the_environment_says(monkeypatch, tmp_path):
