@@ -5,10 +5,10 @@ The paper's one-sided actuator: supply side with its waves, return side without.
     O ---- A | B ---- C | D ---- E ]piston        p = 0 behind it
 
 The return side is taken as quasi-static flow at zero pressure (Jankovic et al., section 5), so
-nothing pushes back and nothing is lost there. Here it is the same solver with a second piston area of a ten-thousandth of the
-first: what it carries and what it pushes is of that size. Only the direct edge A to B opens; for
-the reverse half of a stroke such a model has no equations. It starts in balance: chamber
-and spring at zero.
+nothing pushes back and nothing is lost there. Here it is the same solver with a second piston
+area of a ten-thousandth of the first: what it carries and what it pushes is of that size. Only
+the direct edge A to B opens; for the reverse half of a stroke such a model has no equations. It
+starts in balance: chamber and spring at zero.
 """
 
 from hydra_actuator.parameters import Parameters
