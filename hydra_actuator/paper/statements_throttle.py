@@ -146,7 +146,7 @@ def impact_ratios(duration: float) -> np.ndarray:
     Return (time [s], right over left side of (10) at A, the same at B), shape (N, 3).
 
     The valve opens to TARGET in a duration [s]; the slope of the pressure is the one-sided
-    difference of second order, on cells of 2.5 mm.
+    difference of second order, on cells of 2.5 mm, once the wave has crossed its three nodes.
     """
     p = paper_parameters().replace({'solver.cells': FINE_CELLS})
     actuator = Actuator(p)
@@ -166,7 +166,8 @@ def impact_ratios(duration: float) -> np.ndarray:
                   for i, j, k in (at_a, at_b)]
         rows.append((seen.time, *(-area / p['fluid.density'] * slope / impact
                                   for slope in slopes)))
-    return np.array(rows)
+    reached = (x[at_a[0]] - x[at_a[-1]]) / wave_speed(p)
+    return np.array([row for row in rows if row[0] > reached])
 
 
 def impact_relation() -> Statement:
