@@ -40,7 +40,7 @@ setup(
         'ros': [
             'ros-jazzy-rclpy', 'ros-jazzy-common-interfaces', 'ros-jazzy-rmw-fastrtps-cpp',
         ],
-        'report': ['matplotlib', 'plotly'],
+        'report': ['matplotlib', 'plotly', 'scipy'],
     },
     zip_safe=False,
     entry_points={

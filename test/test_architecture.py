@@ -38,6 +38,11 @@ ROOMS = {
          'parameters', 'analysis'},
         {'numpy', 'scipy', 'matplotlib'},
     ),
+    'paper': (
+        {'paper', 'verification', 'core', 'kernels', 'geometry', 'assembly', 'actuator',
+         'simulate', 'signals', 'interruption', 'parameters', 'analysis'},
+        {'numpy', 'scipy', 'matplotlib'},
+    ),
     'ros': None,
     'cli': None,
 }

@@ -11,8 +11,8 @@ from functools import cache
 import math
 
 from hydra_actuator.actuator import Actuator, SolverError
-from hydra_actuator.assembly import domain_lengths, wave_speed
 from hydra_actuator.channels import Channels, STATIONS
+from hydra_actuator.geometry import domain_lengths, wave_speed
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.verification.spool_response import paper_parameters
 import numpy as np

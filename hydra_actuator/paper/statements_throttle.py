@@ -6,7 +6,7 @@ from itertools import pairwise
 import math
 
 from hydra_actuator.actuator import Actuator
-from hydra_actuator.assembly import wave_speed
+from hydra_actuator.geometry import wave_speed
 from hydra_actuator.paper.drawing import BLUE, GREEN, GREY, ORANGE, panels, PURPLE, SKY, VERMILION
 from hydra_actuator.paper.drive import drive, frames, opening, Trace
 from hydra_actuator.paper.statement import Finding, Statement
