@@ -18,6 +18,8 @@ BLOCK = 4.0             # [s]
 FORGOTTEN = 2           # blocks, after which the start is below rounding
 MANY = 10_000_000       # steps
 ROUNDING = 1e-9         # relative: what may pile up of 1e-16 in each step
+# The paper states it of a 100 Hz actuator, and draws 16.25 Hz.
+DRIVES = (*SINES[:2], (100.0, 1.0, 10), *SINES[2:])
 OF_PRESENT = 3e-3       # of the velocities present, the paper's second measure
 BENT_DIAMETER = 0.007  # of the lines [m]: the reference's flow then bends slopes by 2.5 %
 BENT_MACH = 0.05        # largest |u|/c that mesh has room for
@@ -103,7 +105,7 @@ def node_count() -> Statement:
 
 def pass_differences() -> Statement:
     """Judge the difference between one and two passes, in the paper's measures."""
-    found = {run: pass_difference(*run) for run in SINES}
+    found = {run: pass_difference(*run) for run in DRIVES}
     good = all(velocity < LIMIT and present < OF_PRESENT and pressure < LIMIT
                for velocity, present, pressure in found.values())
     findings = []
