@@ -201,8 +201,8 @@ def reverse_flow() -> Statement:
         'In the supply and return line reverse flow is very small and can be neglected.',
         'section 7, figure 2a', True if all(little) else None if any(little) else False,
         'It is at the frequency of the figures. At the ends of pump and tank the waves of a '
-        'closing valve swing the oil back, the more the faster it closes; at the valve oil never '
-        'returns, as both pressures leave it no way.',
+        'closing valve swing the oil back, the more the faster it closes; at the valve next to '
+        'none returns, as both pressures leave it no way.',
         tuple(Finding(f'largest reverse over largest forward velocity, {drive_}, at '
                       + ', '.join(shares), '%', 'very small',
                       ', '.join(f'{100 * share:.1f}' for share in shares.values()))
