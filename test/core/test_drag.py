@@ -3,6 +3,7 @@
 
 import math
 
+from hydra_actuator.core.drag import drag_at, estimate_drag
 from hydra_actuator.core.model import Domain, Junction, Mesh
 from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.records import CLOSED, PRESSURE
@@ -67,3 +68,19 @@ def test_memory_of_the_friction_damps_ringing_faster():
             trace.append(chain.end_pressure(1) - 1e4)
         left[friction] = np.abs(trace).max()
     assert left['unsteady'] < 0.7 * left['steady']
+
+
+def test_the_drag_of_one_node_is_that_of_the_loop_over_all():
+    chain = LoneChain(
+        [line('steady'), line('unsteady', pressure=1e4), line('constant', 5.0)],
+        ends(0, 0) + ends(2, 1) + ends(4, 2), Mesh(STEP), OIL)
+    chain.hold(5e5, -3e5, 2e5)
+    chain.advance(150)
+    model, state = chain.model, chain.state
+    state.new_p[:] = state.wave_p + np.random.default_rng(1).normal(0.0, 0.3, state.wave_p.size)
+    estimate_drag(model, state)
+    velocity = 0.5 * (state.new_p - state.new_q)
+    nodes = [i for d in range(3) for i in range(model.start[d], model.start[d] + 101)]
+    alone = np.array([drag_at(model, state, i, velocity[i]) for i in nodes])
+    assert alone == pytest.approx(state.new_drag[nodes], rel=1e-12, abs=1e-15)
+    assert all(np.ptp(part) > 0.1 for part in alone.reshape(3, -1))
