@@ -12,20 +12,26 @@ import math
 from hydra_actuator.assembly import (
     INPUTS,
     LOAD_FORCE,
+    oil,
     set_supply_pressure,
     SPOOL_1,
     SPOOL_2,
     TANK_PRESSURE,
 )
-from hydra_actuator.channels import Channels
+from hydra_actuator.channels import Channels, DOMAINS
 from hydra_actuator.core.advance import advance
 from hydra_actuator.core.observe import NOT_A_NUMBER, observe, read_field, TOO_FAST
 from hydra_actuator.equilibrium import start
 from hydra_actuator.errors import Failure
-from hydra_actuator.geometry import DOMAINS, section_positions, sections
+from hydra_actuator.geometry import section_positions, sections
 from hydra_actuator.kernels import warm_kernels
 from hydra_actuator.parameters import Parameters
 import numpy as np
+
+# Of absolute less vapour pressure [Pa]: without gas it can be below 0.
+TINY = 1e-6
+# What counts as below vacuum [Pa]: 0, less what rounding leaves.
+VACUUM = -1.0
 
 
 class SolverError(Failure):
@@ -38,7 +44,9 @@ class ActuatorState:
     What the actuator shows at one instant.
 
     time [s], position [m], velocity [m/s], effort [N] (hydraulic force), spool_position [m]
-    (one per spool), pressure [Pa, absolute] and flow_velocity [m/s] by section.
+    (one per spool), pressure [Pa, absolute] and flow_velocity [m/s] by section. With cavitation
+    cavity_volume [m^3] of the whole streamline and void_fraction by section, else 0; see
+    hydra_actuator.core.boiling.
     """
 
     time: float
@@ -48,6 +56,18 @@ class ActuatorState:
     spool_position: tuple[float, ...]
     pressure: dict[str, float]
     flow_velocity: dict[str, float]
+    cavity_volume: float
+    void_fraction: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Cavities:
+    """Cavities open now, opened and collapsed since the start, largest volume [m^3] of all."""
+
+    open: int
+    opened: int
+    collapsed: int
+    largest: float
 
 
 class Actuator:
@@ -82,6 +102,7 @@ class Actuator:
         self._table[0, TANK_PRESSURE] = self.parameters['tank.pressure']
         self._inputs[:] = self._table[0]
         self._schedule = (self._times, self._table, True)
+        self._vacuum_ticks = 0
 
     def _make_ready(self) -> None:
         with warm_kernels(len(self._passes), not self._model.extras):
@@ -104,6 +125,18 @@ class Actuator:
         """How often the piston has run into an end stop."""
         return int(self._state.piston[0]['stop_hits'])
 
+    @property
+    def cavities(self) -> Cavities:
+        """How many cavities there are and were, as of the last whole period."""
+        counts = self._state.cavities[0]
+        return Cavities(int(counts['open']), int(counts['opened']), int(counts['collapsed']),
+                        float(counts['largest']))
+
+    @property
+    def vacuum_ticks(self) -> int:
+        """At how many ticks absolute pressure was below 0 somewhere: possible without gas only."""
+        return self._vacuum_ticks
+
     def tick_once(self, spool_1: float, spool_2: float, load_force: float) -> int:
         """
         Advance one period with the commands (normalised, load in N) held; return the status code.
@@ -114,6 +147,8 @@ class Actuator:
         table[SPOOL_1], table[SPOOL_2], table[LOAD_FORCE] = spool_1, spool_2, load_force
         code = self._run(self._schedule, self.steps_per_period)
         self._observe()
+        if self.row[self.channels.lowest_pressure] < VACUUM:
+            self._vacuum_ticks += 1
         return code
 
     def follow(self, schedule: tuple[np.ndarray, np.ndarray, bool], steps: int) -> int:
@@ -169,7 +204,15 @@ class Actuator:
             *(float(x) for x in row[:channels.SPOOL_1]),
             tuple(float(x) for x in row[channels.SPOOL_1:channels.SPOOL_1 + channels.spools]),
             dict(zip(names, row[channels.pressure].tolist())),
-            dict(zip(names, row[channels.flow_velocity].tolist())))
+            dict(zip(names, row[channels.flow_velocity].tolist())),
+            float(row[channels.cavity_volume]),
+            dict(zip(names, self._void_fractions().tolist())))
+
+    def _void_fractions(self) -> np.ndarray:
+        """Return the gas by volume at each section."""
+        gas, model = oil(self.parameters), self._model
+        star = self.row[self.channels.pressure] - self._ambient + model.floor
+        return gas.air_fraction * model.floor / np.maximum(star, TINY)
 
     def status_message(self, code: int) -> str:
         """Return what a status code of this actuator means, with place and limit."""

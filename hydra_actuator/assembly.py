@@ -9,6 +9,7 @@ The second chamber is seen from G towards the piston, so its direction is -1.
 
 import math
 
+from hydra_actuator.channels import DOMAINS
 from hydra_actuator.core.model import build_chain, Domain, Junction, Mesh, step_time_within
 from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.port import port_coefficient
@@ -26,7 +27,7 @@ from hydra_actuator.core.records import (
 )
 from hydra_actuator.core.source import stored_oil
 from hydra_actuator.core.valve import spool_transition
-from hydra_actuator.geometry import domain_lengths, DOMAINS, LINES, origins, wave_speed
+from hydra_actuator.geometry import domain_lengths, LINES, origins, wave_speed
 from hydra_actuator.parameters import ParameterError, Parameters
 import numpy as np
 

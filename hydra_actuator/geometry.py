@@ -15,7 +15,6 @@ from hydra_actuator.core.observe import SECTION
 from hydra_actuator.parameters import ParameterError, Parameters
 import numpy as np
 
-DOMAINS = ('supply_line', 'line_1', 'chamber_1', 'chamber_2', 'line_2', 'return_line')
 LINES = ('line', 'line_1', 'line_2')
 
 # Ends of the chain in the order of the stations: F is the face, G the fixed end of chamber_2.

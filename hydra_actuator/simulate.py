@@ -197,6 +197,7 @@ class _Recording:
         p, channels = actuator.parameters, actuator.channels
         topics = ActuatorTopics(NODE, channels.section_names)
         self._topics, self._spools = topics, channels.spools
+        self._boils = p['fluid.cavitation']
         joint = p['command.valve_joint']
         joints = [p['command.piston_joint'], joint, f'{joint}_2'][:1 + channels.spools]
         self._tick = TickEncoder(channels, joints, topics)
@@ -223,6 +224,8 @@ class _Recording:
             messages += self._tick.pressures(row, stamp)
         if due.sections:
             messages.append((self._topics.sections, self._tick.sections(row, stamp)))
+        if due.sections and self._boils:
+            messages.append((self._topics.cavities, self._tick.cavities(row, stamp)))
         if due.field:
             actuator.read_field(self._field)
             messages.append((self._topics.field, self._field_encoder.encode(time, self._field)))

@@ -3,10 +3,9 @@
 
 import math
 
-from hydra_actuator.actuator import Actuator, SolverError
-from hydra_actuator.channels import Channels, STATIONS
+from hydra_actuator.actuator import Actuator, Cavities, SolverError
+from hydra_actuator.channels import Channels, DOMAINS, STATIONS
 from hydra_actuator.core.observe import NOT_A_NUMBER, TOO_FAST, TOO_SHORT
-from hydra_actuator.geometry import DOMAINS
 from hydra_actuator.parameters import ParameterError, Parameters
 import numpy as np
 import pytest
@@ -354,3 +353,68 @@ def test_period_is_a_whole_number_of_steps(cells):
     assert actuator.steps_per_period * actuator.step_time == pytest.approx(
         actuator.period, rel=1e-14)
     assert actuator.step_time <= 2.0 / (cells * 1300.0)
+
+
+def boiling(**changes) -> Actuator:
+    """Return an actuator whose return line tears at a full-stroke sine."""
+    return make(tank__pressure=0.0, solver__cells=100, fluid__cavitation=True, **changes)
+
+
+def sine(actuator: Actuator, ticks: int) -> np.ndarray:
+    """Return the rows of ticks of a full-stroke sine of 50 Hz."""
+    rows = []
+    for k in range(ticks):
+        spool = math.sin(0.1 * math.pi * k)
+        assert actuator.tick_once(spool, spool, 0.0) == 0
+        rows.append(actuator.row.copy())
+    return np.array(rows)
+
+
+def test_oil_that_boils_is_seen_in_row_state_and_counts():
+    actuator = boiling()
+    rows, columns = sine(actuator, 60), actuator.channels
+    counts = actuator.cavities
+    assert counts.opened >= 1
+    assert counts.open == counts.opened - counts.collapsed == rows[-1, columns.cavities_open]
+    assert counts.largest == rows[:, columns.cavity_volume].max() > 1e-7
+    assert rows[:, columns.lowest_pressure].min() > 10.0
+    volumes = rows[:, columns.domain_cavities]
+    assert volumes.sum(axis=1) == pytest.approx(rows[:, columns.cavity_volume], rel=1e-12)
+    assert volumes[:, DOMAINS.index('return_line')].max() > 1e-7
+    state = actuator.state
+    assert state.cavity_volume == rows[-1, columns.cavity_volume]
+    assert state.void_fraction['O'] == pytest.approx(
+        1e-4 * (101325.0 - 10.0) / (state.pressure['O'] - 10.0))
+    assert max(state.void_fraction, key=state.void_fraction.get) == min(
+        state.pressure, key=state.pressure.get)
+    assert actuator.vacuum_ticks == 0
+
+
+def test_counts_of_cavities_start_anew_with_a_reset():
+    actuator = boiling()
+    first = sine(actuator, 30)
+    actuator.reset()
+    assert actuator.cavities == Cavities(0, 0, 0, 0.0)
+    assert np.array_equal(sine(actuator, 30), first)
+
+
+def test_sections_at_the_piston_move_with_it_where_there_is_gas():
+    actuator = boiling()
+    rows, columns = sine(actuator, 30), actuator.channels
+    faces = rows[:, columns.flow_velocity][:, [STATIONS.index('E'), STATIONS.index('F')]]
+    assert np.array_equal(faces, np.repeat(rows[:, [columns.VELOCITY]], 2, axis=1))
+    field = np.empty((len(actuator.field_labels), 2), np.float32)
+    actuator.read_field(field)
+    face = actuator.field_labels.index('chamber_2')
+    assert field[face, 1] == np.float32(rows[-1, columns.VELOCITY])
+
+
+def test_without_gas_ticks_below_vacuum_are_counted():
+    actuator = make(tank__pressure=0.0, solver__cells=100)
+    rows, columns = sine(actuator, 40), actuator.channels
+    below = rows[:, columns.lowest_pressure] < 0.0
+    assert actuator.vacuum_ticks == below.sum() > 5
+    assert actuator.cavities == Cavities(0, 0, 0, 0.0)
+    assert set(actuator.state.void_fraction.values()) == {0.0}
+    assert (rows[:, columns.lowest_pressure]
+            <= rows[:, columns.pressure].min(axis=1) + REST_PRESSURE).all()

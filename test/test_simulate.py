@@ -101,10 +101,24 @@ def test_the_recording_holds_the_rows_of_a_run_without_one(tmp_path, spools, com
     assert run.kept_rows is None
     assert load_recording(run.recording).custom_data['parameters'] == parameters.as_yaml()
     assert run.rows.shape == expected.shape
-    # Stamps are whole nanoseconds, and no topic carries the Mach number.
+    # Stamps are whole nanoseconds; no topic carries the Mach number, nor cavities without gas.
     assert np.abs(run.rows[:, 0] - expected[:, 0]).max() <= 0.5e-9
-    other = np.delete(np.arange(run.channels.width), [Channels.TIME, Channels.MACH])
+    other = np.delete(np.arange(run.channels.cavity_volume), [Channels.TIME, Channels.MACH])
     assert np.array_equal(run.rows[:, other], expected[:, other])
+
+
+def test_cavities_are_recorded_only_where_they_are_modelled(tmp_path):
+    torn = QUICK.replace({'tank.pressure': 0.0, 'fluid.cavitation': True})
+    expected = simulate(torn, SINE, 0.03).rows
+    run = simulate(torn, SINE, 0.03, tmp_path / 'torn')
+    columns = run.channels
+    assert np.array_equal(run.rows[:, columns.cavities], expected[:, columns.cavities])
+    assert run.rows[:, columns.cavity_volume].max() > 0.0
+    plain = simulate(QUICK, SINE, 0.01, tmp_path / 'plain')
+    assert np.isnan(plain.rows[:, columns.cavities]).all()
+    counts = [load_recording(tmp_path / name).topics['/actuator/cavities'].count
+              for name in ('torn', 'plain')]
+    assert counts == [31, 0]
 
 
 def test_the_rate_sets_states_and_pressures_and_nothing_else(tmp_path):

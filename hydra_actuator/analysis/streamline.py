@@ -10,10 +10,9 @@ two domains stays a jump: two nodes at one x. Between nodes the picture is linea
 """
 
 from hydra_actuator.analysis.series import Field, Series
-from hydra_actuator.channels import STATIONS
+from hydra_actuator.channels import DOMAINS, STATIONS
 import numpy as np
 
-DOMAINS = ('supply_line', 'line_1', 'chamber_1', 'chamber_2', 'line_2', 'return_line')
 FEWEST_STATIONS = 6
 
 

@@ -6,6 +6,7 @@ The call allocates nothing and releases the interpreter lock. Time is the count 
 the step time, so any split of the steps gives the same bits.
 """
 
+from hydra_actuator.core.boiling import count_cavities, note_lowest
 from hydra_actuator.core.compilation import formula, kernel
 from hydra_actuator.core.observe import find_limits, SOUND
 from hydra_actuator.core.records import flip
@@ -36,7 +37,8 @@ def advance(model, state, passes, schedule, inputs, count, check_interval):
     """
     Advance `count` steps; return the status code (state.fault holds where and how much).
 
-    schedule: (times (T,) [s], table (T, C), hold); inputs: work (C,), the inputs in force.
+    schedule: (times (T,) [s], table (T, C), hold); inputs: work (C,), the inputs in force;
+    check_interval: steps after which limits are checked and cavities counted.
     """
     times, table, hold = schedule
     cursor, code = 0, SOUND
@@ -46,6 +48,10 @@ def advance(model, state, passes, schedule, inputs, count, check_interval):
         cursor = read_inputs(times, table, hold, cursor, time, inputs)
         step(model, now, inputs, passes)
         now, other = other, now
+        if len(model.extras) > 0 and model.gas == 1:
+            note_lowest(model, now)
+            if state.step[0] % check_interval == 0:
+                count_cavities(model, now)
         if state.step[0] % check_interval == 0:
             code, _ = find_limits(model, now)
             if code != SOUND:

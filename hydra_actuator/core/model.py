@@ -14,6 +14,7 @@ from hydra_actuator.core.friction import TERMS
 from hydra_actuator.core.line import GHOSTS, GHOSTS_BEYOND_FACE
 from hydra_actuator.core.oil import friction_constants, gas_constants, has_table, Oil
 from hydra_actuator.core.records import (
+    CAVITY_COUNTS,
     JUNCTION,
     Model,
     PISTON_PARAMETERS,
@@ -216,6 +217,8 @@ def _empty_state(domains: int, nodes: int) -> State:
         drag=np.zeros(nodes), new_drag=np.zeros(nodes), memory=np.zeros((TERMS, nodes)),
         fading=np.zeros(nodes), change=np.zeros(nodes), velocity=np.zeros(nodes),
         place=np.zeros(nodes), damping=np.zeros(nodes), star=np.ones(nodes),
-        end_star=np.ones(2 * domains), spool=np.zeros(4), edge_coefficient=np.zeros(4),
+        end_star=np.ones(2 * domains), lowest_star=np.full(nodes + domains, np.inf),
+        was_open=np.zeros(nodes + domains, np.int64), cavities=np.zeros(1, CAVITY_COUNTS),
+        spool=np.zeros(4), edge_coefficient=np.zeros(4),
         valve_velocity=np.zeros(4), ring=np.zeros((6, 4)), piston=np.zeros(1, PISTON_STATE),
         oil_stored=np.zeros(2), step=np.zeros(1, np.int64), fault=np.zeros(3))

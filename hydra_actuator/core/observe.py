@@ -7,6 +7,7 @@ Reading writes ghost nodes only, which every step fills anew: it never changes a
 
 import math
 
+from hydra_actuator.core.boiling import write_cavities
 from hydra_actuator.core.compilation import formula, kernel
 from hydra_actuator.core.fluid import pressure_of
 from hydra_actuator.core.line import interpolate
@@ -55,8 +56,16 @@ def find_limits(model, state):
 
 @formula
 def end_values(model, state, end):
-    """Return (absolute-free gauge pressure [Pa], velocity [m/s] from pump to tank) at an end."""
+    """
+    Return (gauge pressure [Pa], velocity [m/s] from pump to tank) at an end.
+
+    With gas there the velocity is the boundary's, the piston's at its faces, beyond the cavity
+    that may lie between boundary and oil; the oil's own is (P - Q)/2.
+    """
     d = end // 2
+    if len(model.extras) > 0 and model.end_strength[d] > 0.0:
+        away = state.end_velocity[end] if end % 2 == 1 else -state.end_velocity[end]
+        return state.end_star[end] - model.floor, away * model.direction[d]
     i = model.start[d] + (state.last[d] if end % 2 == 1 else 0)
     p, q = state.wave_p[i], state.wave_q[i]
     if end % 2 == 1 and model.moving[d] == 1:
@@ -153,6 +162,7 @@ def observe(model, state, sections, ambient_pressure, inputs, row):
         pressure, velocity = section_values(model, state, sections[k])
         row[8 + k] = pressure + ambient_pressure
         row[8 + count + k] = velocity
+    write_cavities(model, state, ambient_pressure, row, 8 + 2 * count)
     return code
 
 
@@ -175,15 +185,15 @@ def read_field(model, state, ambient_pressure, out):
     Write absolute pressure [Pa] and velocity [m/s] of every node into out (nodes, 2).
 
     Streamline order; a face follows (or, mirrored, precedes) its chamber's grid; grid nodes that
-    their chamber does not cover now are NaN.
+    their chamber does not cover now are NaN. Ends read as `end_values` gives them.
     """
     row = 0
     for d in range(model.start.size):
         count = model.capacity[d] + 1 + model.moving[d]
         for k in range(count):
             index = k if model.direction[d] > 0.0 else count - 1 - k
-            if model.moving[d] == 1 and index == count - 1:
-                pressure, velocity = end_values(model, state, 2 * d + 1)
+            if index in (0, count - 1):
+                pressure, velocity = end_values(model, state, 2 * d + (1 if index > 0 else 0))
                 out[row, 0], out[row, 1] = pressure + ambient_pressure, velocity
             elif index > state.last[d]:
                 out[row, 0], out[row, 1] = math.nan, math.nan

@@ -45,6 +45,11 @@ PISTON_STATE = np.dtype([
     ('new_position', np.float64), ('new_velocity', np.float64), ('new_force', np.float64),
     ('hit', np.int64), ('stop_hits', np.int64)], align=True)
 
+# Cavities open at the last whole period, opened and collapsed so far, largest volume [m^3].
+CAVITY_COUNTS = np.dtype([
+    ('open', np.int64), ('opened', np.int64), ('collapsed', np.int64), ('largest', np.float64)],
+    align=True)
+
 
 class Model(NamedTuple):
     """
@@ -124,6 +129,9 @@ class State(NamedTuple):
     damping: np.ndarray         # (N,) work: h [1/s]
     star: np.ndarray            # (N,) absolute less vapour pressure where there is gas [Pa]
     end_star: np.ndarray        # (2 D,) the same at the ends
+    lowest_star: np.ndarray     # (N + D,) lowest since cavities were counted, faces last [Pa]
+    was_open: np.ndarray        # (N + D,) int64: 1 where a cavity was open then
+    cavities: np.ndarray        # (1,) CAVITY_COUNTS
     spool: np.ndarray           # (4,) displacement, velocity of spool 1, of spool 2
     edge_coefficient: np.ndarray  # (4,) K' of the valve's edges
     valve_velocity: np.ndarray  # (4,) work: outflow at A, B, I, J
@@ -143,6 +151,6 @@ def flip(state):
         state.end_velocity, state.end_velocity_before, state.end_theta, state.face_p,
         state.face_q, state.theta_p, state.theta_q, state.drag, state.new_drag, state.memory,
         state.fading, state.change, state.velocity, state.place, state.damping,
-        state.star, state.end_star, state.spool,
+        state.star, state.end_star, state.lowest_star, state.was_open, state.cavities, state.spool,
         state.edge_coefficient, state.valve_velocity, state.ring, state.piston,
         state.oil_stored, state.step, state.fault)

@@ -115,6 +115,13 @@ class Recording:
         return series.stamps, series.numbers()
 
     @cached_property
+    def cavities(self) -> tuple[np.ndarray, np.ndarray]:
+        """Stamps [ns], and values in the order of `channels.cavity_names()`; none without gas."""
+        series = self._one('/cavities', messages.FLOAT64_ARRAY)
+        width = len(self.channels.cavity_names())
+        return series.stamps, series.numbers()[:, 1:] if len(series) else np.empty((0, width))
+
+    @cached_property
     def field(self) -> np.ndarray:
         """Absolute pressure [Pa] and velocity [m/s], float32, shape (frames, nodes, 2)."""
         series = self._one('/field', messages.FLOAT32_ARRAY)
@@ -162,6 +169,7 @@ class Recording:
             self._one('/joint_states', messages.JOINT_STATE),
             self._one('/sections', messages.FLOAT64_ARRAY),
             self._one('/applied', messages.FLOAT64_ARRAY),
+            self._one('/cavities', messages.FLOAT64_ARRAY),
             {name.rpartition('/')[2]: series for name, series in self._series.items()
              if series.type == messages.FLUID_PRESSURE},
         )

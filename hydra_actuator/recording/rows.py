@@ -2,8 +2,8 @@
 """
 Observation rows put together again from recorded topics.
 
-There is one row per joint state. What no topic carries is NaN: the Mach number, and pressures or
-velocities at instants that their own, slower topics left out.
+There is one row per joint state. What no topic carries is NaN: the Mach number, cavities without
+fluid.cavitation, and what stands in a slower topic at instants that it left out.
 """
 
 from collections.abc import Mapping
@@ -21,6 +21,7 @@ class StateTopics:
     joints: Series
     sections: Series
     applied: Series
+    cavities: Series
     pressures: Mapping[str, Series]
 
     def channels(self) -> Channels:
@@ -51,6 +52,9 @@ class StateTopics:
         rows[:, channels.SPOOL_2] = joints[:, 0, channels.spools]
         rows[:, channels.LOAD_FORCE] = self._load_force(stamps)
         self._enter_sections(rows, channels, stamps)
+        if len(self.cavities):
+            at, chosen = _matching(stamps, self.cavities.stamps)
+            rows[at, channels.cavities] = self.cavities.numbers()[chosen, 1:]
         return rows
 
     def _load_force(self, stamps: np.ndarray) -> np.ndarray | float:

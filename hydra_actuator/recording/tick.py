@@ -44,6 +44,9 @@ class TickEncoder:
             [(','.join(channels.section_names), sections, 2 * sections), (QUANTITIES, 2, 2)],
             data_offset=1,
         )
+        names = [name for name, _ in channels.cavity_names()]
+        self._cavities = MultiArrayEncoder(
+            1 + len(names), [(','.join(names), len(names), len(names))], data_offset=1)
 
     def joint_state(self, row: Sequence[float], stamp_ns: int) -> bytes:
         """Return the JointState of a row."""
@@ -70,6 +73,10 @@ class TickEncoder:
         values[1::2] = row[self._channels.pressure]
         values[2::2] = row[self._channels.flow_velocity]
         return self._sections.encode(values)
+
+    def cavities(self, row: Sequence[float], stamp_ns: int) -> bytes:
+        """Return the Float64MultiArray: stamp [s], then what the row says about cavities."""
+        return self._cavities.encode([stamp_ns / SECOND, *row[self._channels.cavities]])
 
     def encode(
         self, row: np.ndarray | Sequence[float], stamp_ns: int, pressures: bool = True,

@@ -52,6 +52,7 @@ class ActuatorTopics:
         self.clock = '/clock'
         self.pressure = {name: f'{node}/pressure/{name}' for name in section_names}
         self.sections = f'{node}/sections'
+        self.cavities = f'{node}/cavities'
         self.field = f'{node}/field'
         self.applied = f'{node}/applied'
         self.events = f'{node}/events'
@@ -68,6 +69,7 @@ class ActuatorTopics:
             Topic(self.joint_states, messages.JOINT_STATE),
             *(Topic(name, messages.FLUID_PRESSURE) for name in self.pressure.values()),
             Topic(self.sections, messages.FLOAT64_ARRAY),
+            Topic(self.cavities, messages.FLOAT64_ARRAY),
             Topic(self.field, messages.FLOAT32_ARRAY),
             Topic(self.applied, messages.FLOAT64_ARRAY),
             Topic(self.events, messages.DIAGNOSTICS),

@@ -17,11 +17,11 @@ from dataclasses import dataclass
 from functools import cache
 import math
 
+from hydra_actuator.core.boiling import gas_volumes, OPENS
 from hydra_actuator.core.model import Domain, Junction, set_domain
 from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.records import FLOW, PRESSURE
 from hydra_actuator.verification.case import Case, Row
-from hydra_actuator.verification.cavitation import gas_volumes
 from hydra_actuator.verification.chains import LoneChain, mesh_of, riemann_variable
 import numpy as np
 
@@ -34,8 +34,8 @@ VAPOUR_PRESSURE = 2300.0
 FLOOR = 101325.0 - VAPOUR_PRESSURE
 WATER = Oil(DENSITY, air_fraction=1e-7, floor=FLOOR)
 CLOSURE = 9e-3
-# the valve's cavity is open below this p - p_v [Pa], where gas has a hundred times its volume
-OPEN = 0.01 * FLOOR
+# the valve's cavity is open below this p - p_v [Pa]
+OPEN = OPENS * FLOOR
 BAR, TRACE_BAR = 3e-3, 0.05
 # the first plateau [kPa] at these times [s]: the front carried back to mid-closure, and its end
 PLATEAU = (0.5 * CLOSURE, 0.054)
@@ -93,12 +93,12 @@ def slam(run: Run, cells: int, courant: float) -> Trace:
     gradient = 0.5 * run.darcy / DIAMETER * DENSITY * run.velocity ** 2
     mu = riemann_variable(HEAD - gradient * chain.positions(0), WAVE_SPEED, BULK_MODULUS)
     set_domain(chain.model, chain.state, 0, mu + run.velocity, mu - run.velocity)
-    at_rest = gas_volumes(chain, WATER.air_fraction).sum()
+    at_rest = gas_volumes(chain.model, chain.state, 0).sum()
     entries = []
     while chain.time < run.end:
         after = chain.time + chain.model.step_time
         chain.step(HEAD, AREA * run.velocity * max(0.0, 1.0 - after / CLOSURE))
-        gas = gas_volumes(chain, WATER.air_fraction).sum() - at_rest
+        gas = gas_volumes(chain.model, chain.state, 0).sum() - at_rest
         entries.append((chain.time, chain.end_pressure(1), gas))
     return Trace(*np.array(entries).T)
 

@@ -10,6 +10,7 @@ pressure while its gas grows: pressures are read from the gas, p = p* + p_v.
 from functools import cache
 import math
 
+from hydra_actuator.core.boiling import gas_volumes
 from hydra_actuator.core.model import Domain, Junction
 from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.records import CLOSED, FLOW, PRESSURE
@@ -51,14 +52,6 @@ def above_vapour(chain: LoneChain, d: int = 0) -> np.ndarray:
     """Return absolute less vapour pressure [Pa] at the nodes of a line with gas."""
     first = chain.model.start[d]
     return chain.state.star[first:first + chain.state.last[d] + 1]
-
-
-def gas_volumes(chain: LoneChain, air_fraction: float, d: int = 0) -> np.ndarray:
-    """Return the gas [m^3] at the nodes of a line: a whole cell's, at its ends half a cell's."""
-    model = chain.model
-    oil = np.full(chain.state.last[d] + 1, model.area[d] * model.spacing[d])
-    oil[0], oil[-1] = 0.5 * oil[0], 0.5 * oil[-1]
-    return air_fraction * model.floor * oil / above_vapour(chain, d)
 
 
 def mixture_speed(share: float, pressure: float) -> float:
@@ -144,7 +137,7 @@ def oil_mass(chain: LoneChain) -> float:
     """Return the oil [kg] in a line: what fills it, less what its gas displaces."""
     room = np.full(chain.state.last[0] + 1, AREA * chain.model.spacing[0])
     room[0], room[-1] = 0.5 * room[0], 0.5 * room[-1]
-    return float(np.sum(oil_density(chain) * (room - gas_volumes(chain, TRACE_OF_GAS))))
+    return float(np.sum(oil_density(chain) * (room - gas_volumes(chain.model, chain.state, 0))))
 
 
 def mass_flow(chain: LoneChain) -> np.ndarray:
@@ -170,7 +163,7 @@ def weigh(cells: int, courant: float) -> np.ndarray:
         before = after
         moved += mean
         throughput += abs(mean[0])
-        gas = float(gas_volumes(chain, TRACE_OF_GAS).sum())
+        gas = float(gas_volumes(chain.model, chain.state, 0).sum())
         rows.append((moved[0] - moved[1] - oil_mass(chain) + mass, gas, throughput,
                      chain.time))
     return np.array(rows)
@@ -213,7 +206,7 @@ def growing_zone(courant: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     while chain.time < 6.6e-3:
         close_valve(chain)
         if chain.time > 5.5e-3:
-            gas = gas_volumes(chain, TRACE_OF_GAS)[-2::-1]
+            gas = gas_volumes(chain.model, chain.state, 0)[-2::-1]
             zone = int(np.argmin(gas > 0.2 * gas[0]))
             history.append((chain.time,
                             alternation(gas[1:zone - 2]) if zone > 8 else math.nan))

@@ -88,7 +88,17 @@ class LoneChain:
         return np.append(x, self.state.length[d]) if self.model.moving[d] else x
 
     def pressure(self, d: int) -> np.ndarray:
-        """Return gauge pressures [Pa] along a domain."""
+        """
+        Return gauge pressures [Pa] along a domain.
+
+        With gas they are read from it, p = p* - floor: (P + Q)/2 of an inner node is not mu while
+        its gas grows.
+        """
+        model, state = self.model, self.state
+        if model.end_strength[d] > 0.0:
+            star = state.star[model.start[d]:model.start[d] + state.last[d] + 1]
+            face = [state.end_star[2 * d + 1]] if model.moving[d] else []
+            return np.append(star, face) - model.floor
         p, q = self.waves(d)
         return self._pressure(0.5 * (p + q), d)
 
@@ -129,7 +139,7 @@ def make_kernels_ready(iterations: int, plain: bool = True) -> None:
     schedule = (np.zeros(1), np.zeros((1, INPUTS)), True)
     with warm_kernels(iterations, plain):
         advance(model, state, (0,) * iterations, schedule, inputs, 0, 1)
-        observe(model, state, np.zeros(1, SECTION), 0.0, inputs, np.zeros(10))
+        observe(model, state, np.zeros(1, SECTION), 0.0, inputs, np.zeros(16))
         read_field(model, state, 0.0, np.zeros((model.capacity[0] + 1, 2), np.float32))
 
 

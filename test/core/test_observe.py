@@ -54,7 +54,8 @@ def fill(chain: LoneChain, pressure, velocity) -> None:
 
 
 def row_of(chain: LoneChain, sections: np.ndarray) -> tuple[np.ndarray, Channels]:
-    channels = Channels(tuple(f's{k}' for k in range(len(sections))))
+    names = tuple(f's{k}' for k in range(len(sections)))
+    channels = Channels(names, domains=('chamber_1', 'chamber_2'))
     row = channels.empty_row()
     assert observe(chain.model, chain.state, sections, AMBIENT, chain.inputs, row) == SOUND
     return row, channels

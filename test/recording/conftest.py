@@ -50,6 +50,7 @@ class Made:
         found = []
         for tick, (row, stamp) in enumerate(zip(self.rows, self.stamps.tolist())):
             batch = tick_encoder.encode(row, stamp)
+            batch.append((self.topics.cavities, tick_encoder.cavities(row, stamp)))
             if tick % 10 == 0:
                 spools = [tick / 1000.0] * self.channels.spools
                 batch.append((self.topics.applied, applied.encode(tick, spools, 5.0 * tick)))

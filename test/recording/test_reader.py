@@ -28,6 +28,7 @@ def assert_rows_are_those_made(recording, made) -> None:
     assert np.array_equal(rows[:, carried], expected[:, carried])
     assert np.array_equal(rows[:, channels.pressure], expected[:, channels.pressure])
     assert np.array_equal(rows[:, channels.flow_velocity], expected[:, channels.flow_velocity])
+    assert np.array_equal(rows[:, channels.cavities], expected[:, channels.cavities])
     assert np.isnan(rows[:, channels.MACH]).all()
 
 
@@ -43,6 +44,13 @@ def test_rows_come_back_bit_for_bit(make_recording, options):
     assert np.array_equal(recording.row_stamps, made.stamps)
     assert np.array_equal(recording.time, made.rows[:, made.channels.TIME])
     assert_rows_are_those_made(recording, made)
+
+
+def test_cavities_come_back_with_their_stamps(make_recording):
+    made = make_recording()
+    stamps, values = load_recording(made.directory).cavities
+    assert np.array_equal(stamps, made.stamps)
+    assert np.array_equal(values, made.rows[:, made.channels.cavities])
 
 
 def test_one_spool_stands_in_both_spool_columns(make_recording):
@@ -117,6 +125,7 @@ def test_slower_pressures_leave_nan_between(tmp_path):
     pressures = recording.rows[:, recording.channels.pressure][:, 0]
     assert np.array_equal(pressures, [np.nan, 7, np.nan, 7, np.nan, 7], equal_nan=True)
     assert np.isnan(recording.rows[:, recording.channels.flow_velocity]).all()
+    assert np.isnan(recording.rows[:, recording.channels.cavities]).all()
     assert recording.field.shape[0] == 0
 
 
@@ -127,6 +136,7 @@ def test_an_empty_recording_has_empty_arrays(tmp_path):
     assert recording.time.shape == (0,)
     assert recording.field.shape[0] == recording.field_time.shape[0] == 0
     assert recording.applied[1].shape[0] == 0
+    assert recording.cavities[1].shape == (0, len(recording.channels.cavity_names()))
     assert recording.commands == {}
     assert recording.diagnostics == []
     assert (recording.start_ns, recording.end_ns) == (0, 0)

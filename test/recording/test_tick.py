@@ -67,6 +67,19 @@ def test_sections_hold_the_stamp_then_pressure_and_velocity_by_section():
     assert (values[:, 1] == row[channels.flow_velocity]).all()
 
 
+def test_cavities_are_named_by_the_label_behind_the_stamp():
+    channels = Channels(SECTIONS, 1)
+    row = np.arange(channels.width, dtype=float)
+    encoder = TickEncoder(channels, JOINTS[:2], ActuatorTopics('/a', SECTIONS))
+    message = messages.decode(messages.FLOAT64_ARRAY, encoder.cavities(row.tolist(), STAMP))
+    assert message['layout']['data_offset'] == 1
+    assert message['data'] == [STAMP / 1e9, *row[channels.cavities]]
+    names = message['layout']['dim'][0]['label'].split(',')
+    assert names[:2] == ['cavity_volume', 'lowest_pressure']
+    assert names[-1] == 'cavity_volume.return_line'
+    assert len(names) == len(message['data']) - 1
+
+
 def test_pressures_and_sections_can_be_left_out():
     assert set(encoded(1, pressures=False, sections=False)[2]) == {'/ns/joint_states'}
     assert set(encoded(1, pressures=False)[2]) == {'/ns/joint_states', '/ns/actuator/sections'}
