@@ -23,6 +23,7 @@ from hydra_actuator.ros.commands import CENTRED
 from hydra_actuator.ros.ring import Ring
 from hydra_actuator.ros.setpoint import Setpoint
 from hydra_actuator.ros.supply import Supply
+from hydra_actuator.ros.worker import Worker
 
 _NS = 1_000_000_000
 # Longest wait [s] for an order, beside a period.
@@ -55,8 +56,7 @@ class Plant:
         self._period_ns = actuator.period * _NS
         self._frames_per_tick = min(1.0, field_rate * actuator.period)
         self._orders: deque[Callable[[], None]] = deque()
-        self._thread: threading.Thread | None = None
-        self._stopping = False
+        self._worker = Worker('solver', self._run)
         self._base = self._stamp = 0
         self._rows = 0
         self._held = (*CENTRED, 0.0)
@@ -64,22 +64,17 @@ class Plant:
     @property
     def running(self) -> bool:
         """Tell whether ticks are under way."""
-        return self._thread is not None
+        return self._worker.running
 
     def start(self) -> None:
         """Begin ticking; the first start puts the initial state into the ring."""
         self.failure = ''
         self._held = self._inputs()
-        self._stopping = False
-        self._thread = threading.Thread(target=self._run, name='solver', daemon=True)
-        self._thread.start()
+        self._worker.start()
 
     def stop(self) -> None:
         """Stop after the tick under way; the state stays."""
-        if self._thread is not None:
-            self._stopping = True
-            self._thread.join()
-            self._thread = None
+        self._worker.stop()
         self._follow_orders()
 
     def step(self) -> bool:
@@ -132,7 +127,7 @@ class Plant:
             self.on_failure()
 
     def _tick_until_stopped(self) -> None:
-        while not self._stopping:
+        while not self._worker.stopping:
             index = self._pacer.wait()
             if index is None:
                 self.failure = 'a tick was missed, and timing.overrun_policy is halt'

@@ -9,9 +9,9 @@ their callback group never lets it.
 """
 
 from collections.abc import Callable, Iterable
-import threading
 import time
 
+from hydra_actuator.ros.worker import Worker
 from rclpy.callback_groups import CallbackGroup
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
@@ -47,8 +47,7 @@ class Reception:
         self._on_error = on_error
         self._group = HiddenGroup()
         self._receivers: list[tuple[Subscription, Receiver]] = []
-        self._thread: threading.Thread | None = None
-        self._stopping = False
+        self._worker = Worker('reception', self._run)
 
     def subscribe(self, message_type, topic: str, receiver: Receiver, **settings) -> str:
         """Add a subscription, before `start`; return the full name of its topic."""
@@ -64,17 +63,11 @@ class Reception:
         for subscription in subscriptions:
             while _take(subscription) is not None:
                 pass
-        self._stopping = False
-        self._thread = threading.Thread(
-            target=self._run, args=(subscriptions,), name='reception', daemon=True)
-        self._thread.start()
+        self._worker.start(subscriptions)
 
     def stop(self) -> None:
         """End the thread; what comes from now on is not received."""
-        if self._thread is not None:
-            self._stopping = True
-            self._thread.join()
-            self._thread = None
+        self._worker.stop()
 
     def destroy(self) -> None:
         """Stop, and give the subscriptions up."""
@@ -87,7 +80,7 @@ class Reception:
         wait_set = rclpy_implementation.WaitSet(
             len(self._receivers), 0, 0, 0, 0, 0, self._node.context.handle)
         with wait_set:
-            while not self._stopping:
+            while not self._worker.stopping:
                 wait_set.clear_entities()
                 for subscription in subscriptions:
                     wait_set.add_subscription(subscription.handle)
