@@ -10,7 +10,7 @@ import json
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from hydra_actuator.analysis.series import Command, Field, Report, Series
+from hydra_actuator.analysis.series import Cavities, Command, Field, Report, Series
 from hydra_actuator.analysis.streamline import piston_faces
 from hydra_actuator.errors import InputError
 from hydra_actuator.parameters import read_parameter_file
@@ -38,7 +38,7 @@ def series_of(path: str | Path) -> Series:
         commands=_commands(recording, parameters), diagnostics=_reports(recording),
         send_delay=_send_delay(recording), parameters=parameters,
         versions=_json_of(recording, 'versions', {}),
-        source=recording.custom_data.get('source', ''),
+        cavities=_cavities(recording), source=recording.custom_data.get('source', ''),
     )
 
 
@@ -87,6 +87,24 @@ def _field(recording: Recording) -> Field | None:
     return Field(
         recording.field_time, places, labels, frames[:, :, 0], frames[:, :, 1],
         piston_faces(labels), 'the field',
+    )
+
+
+def _cavities(recording: Recording) -> Cavities | None:
+    """Return the cavities over time, or None if there are none in the recording."""
+    stamps, values = recording.cavities
+    channels = recording.channels
+    if not len(stamps):
+        return None
+    first = channels.cavities.start
+
+    def column(index: int) -> np.ndarray:
+        return values[:, index - first]
+    return Cavities(
+        (stamps - recording.row_stamps[0]) * 1e-9, column(channels.cavity_volume),
+        column(channels.cavities_open), column(channels.cavities_opened),
+        column(channels.cavities_collapsed), channels.domains,
+        values[:, channels.domain_cavities.start - first:],
     )
 
 

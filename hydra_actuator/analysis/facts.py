@@ -3,7 +3,7 @@
 
 from hydra_actuator.analysis import timing
 from hydra_actuator.analysis.figure import MEGAPASCAL, MICRO, MILLI
-from hydra_actuator.analysis.series import Series
+from hydra_actuator.analysis.series import Cavities, Series
 from hydra_actuator.analysis.window import motion_frequency
 from hydra_actuator.parameters.table import definitions
 import numpy as np
@@ -27,6 +27,8 @@ def run_facts(series: Series) -> Rows:
     if series.pressure.size:
         rows += [(f'{word} pressure', _extreme_pressure(series, word))
                  for word in ('highest', 'lowest')]
+    if series.cavities is not None:
+        rows += _cavity_facts(series.cavities)
     for command in series.commands:
         rows.append((f'messages on {command.topic}', str(len(command.time))))
     if series.field is not None:
@@ -56,6 +58,17 @@ def real_time_facts(series: Series) -> Rows:
         rows.append(('sending after the stamp, p50 / p99 / max',
                      f'{p50:.0f} / {p99:.0f} / {top:.0f} us'))
     return rows
+
+
+def _cavity_facts(cavities: Cavities) -> Rows:
+    """Return how many cavities there were and how large they became."""
+    top = int(np.argmax(cavities.volume))
+    opened, collapsed = int(cavities.opened[-1]), int(cavities.collapsed[-1])
+    return [
+        ('cavities', f'{opened} opened, {collapsed} collapsed'),
+        ('largest volume of cavities',
+         f'{cavities.volume[top] * 1e6:.4g} ml, t = {cavities.time[top]:.4f} s'),
+    ]
 
 
 def _unit(key: str) -> str:

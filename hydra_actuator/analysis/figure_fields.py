@@ -58,7 +58,7 @@ def surface(series: Series, field: Field, shown: Window, quantity: str) -> Figur
     }
     return Figure(
         f'surface_{quantity}', f'{name.capitalize()} over streamline and time',
-        f'{_span(shown)}, from {origin(part)}. Drag to turn, double-click to reset.',
+        f'{span(shown)}, from {origin(part)}. Drag to turn, double-click to reset.',
         [trace], {'scene': scene}, height=480, wide=False,
     )
 
@@ -86,7 +86,7 @@ def wave_map(series: Series, field: Field, shown: Window, quantity: str,
         f'x %{{x:.3f}} m<br>t %{{y:.4g}}<br>%{{z:.3f}} {unit} from the mean<extra></extra>')
     difference['colorbar'] = _bar(unit)
     itself['visible'], difference['visible'] = not waves, waves
-    traces, layout = [itself, difference], _map_layout(field, time, 'time [ms]')
+    traces, layout = [itself, difference], map_layout(field, time, 'time [ms]')
     layout['updatemenus'] = [_choice([f'{name} itself', 'less its mean'], int(waves))]
     if field.faces is not None:
         traces.append({
@@ -96,7 +96,7 @@ def wave_map(series: Series, field: Field, shown: Window, quantity: str,
         })
     return Figure(
         f'map_{quantity}', f'{name.capitalize()}: x-t map',
-        f'{_span(shown)}, from {origin(part)}. Dotted: the piston.',
+        f'{span(shown)}, from {origin(part)}. Dotted: the piston.',
         traces, layout, height=520, wide=False,
     )
 
@@ -113,7 +113,7 @@ def whole_run_map(field: Field, quantity: str, buckets: int = WHOLE_RUN_ROWS) ->
     traces = [_heatmap(grid, field.time[starts], values, quantity) for values in maps]
     for k, trace in enumerate(traces):
         trace.update(_shared_range(maps, quantity), visible=k == 0)
-    layout = _map_layout(field, field.time[starts], 'time [s]')
+    layout = map_layout(field, field.time[starts], 'time [s]')
     layout['updatemenus'] = [_choice(['highest in each row', 'lowest in each row'], 0)]
     seconds = (field.time[-1] - field.time[0]) / max(len(starts), 1)
     return Figure(
@@ -182,7 +182,7 @@ def x_axis(ends: list[tuple[float, str]]) -> dict:
     }
 
 
-def _map_layout(field: Field, time: np.ndarray, time_title: str) -> dict:
+def map_layout(field: Field, time: np.ndarray, time_title: str) -> dict:
     """Return the layout of a map."""
     return {
         'xaxis': {**x_axis(streamline.boundaries(field)), 'showgrid': False},
@@ -191,7 +191,7 @@ def _map_layout(field: Field, time: np.ndarray, time_title: str) -> dict:
     }
 
 
-def _span(shown: Window) -> str:
+def span(shown: Window) -> str:
     """Return what part of the run is shown, in words."""
     length = (shown.end - shown.start) * MILLI
     periods = f' of a {shown.frequency:.4g} Hz motion' if shown.frequency else ''

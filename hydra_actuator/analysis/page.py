@@ -8,6 +8,7 @@ A content security policy in the page forbids every connection.
 """
 
 import base64
+from collections.abc import Sequence
 import hashlib
 import html
 from importlib import resources
@@ -80,11 +81,13 @@ def figures_json(figures: list[Figure]) -> str:
     return text.replace('<', '\\u003c')
 
 
-def page(title: str, subtitle: str, figures: list[Figure], tables: list[tuple]) -> str:
+def page(title: str, subtitle: str, figures: list[Figure], tables: list[tuple],
+         warnings: Sequence[str] = ()) -> str:
     """Return the page; `tables` holds (title, note, rows of two texts)."""
     parts = {
         'TITLE': html.escape(title),
         'SUBTITLE': html.escape(subtitle),
+        'WARNINGS': '\n'.join(f'<p class="warning">{html.escape(w)}</p>' for w in warnings),
         'STYLE': _asset('style.css'),
         'PICTURES': '\n'.join(_place(figure) for figure in figures),
         'TABLES': '\n'.join(_table(*table) for table in tables),

@@ -9,7 +9,7 @@ Needs matplotlib, no browser.
 
 from pathlib import Path
 
-from hydra_actuator.analysis import streamline
+from hydra_actuator.analysis import boiling, streamline
 from hydra_actuator.analysis.figure import MEGAPASCAL, MILLI
 from hydra_actuator.analysis.palette import BLUE, INK, ORANGE, VELOCITY_STOPS, VERMILION
 from hydra_actuator.analysis.series import Field, Series
@@ -74,6 +74,8 @@ def picture(series: Series):
         _draw_surface(figure, series, field, shown)
         _draw_map(figure, series, field, shown)
         _draw_lines(figure, series, shown)
+        for k, words in enumerate(boiling.warnings(series)):
+            figure.text(0.01, 0.98 - 0.04 * k, words, color=VERMILION, fontsize=9, va='top')
     return figure
 
 

@@ -9,7 +9,9 @@ import os
 from pathlib import Path
 
 from hydra_actuator.analysis import (
+    boiling,
     facts,
+    figure_cavities,
     figure_fields,
     figure_lines,
     figure_ranges,
@@ -69,6 +71,7 @@ def report_page(series: Series) -> str:
     """Return the page of a run."""
     return page(
         f'Actuator recording {series.name}', _subtitle(series), figures(series), _tables(series),
+        boiling.warnings(series),
     )
 
 
@@ -79,6 +82,7 @@ def figures(series: Series) -> list[Figure]:
         *field_figures(series, shown),
         figure_lines.sections(series, shown),
         figure_lines.piston(series, shown),
+        *figure_cavities.cavities(series, shown),
         *timing_figures(series),
     ]
 

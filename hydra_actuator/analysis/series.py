@@ -55,6 +55,19 @@ class Command:
 
 
 @dataclass(frozen=True)
+class Cavities:
+    """Cavities over time: counts since the start, volumes [m^3], of all and by domain."""
+
+    time: np.ndarray          # (messages,) [s]
+    volume: np.ndarray        # (messages,)
+    open: np.ndarray          # (messages,) now
+    opened: np.ndarray        # (messages,)
+    collapsed: np.ndarray     # (messages,)
+    domains: tuple[str, ...]
+    of_domain: np.ndarray     # (messages, domains) volume
+
+
+@dataclass(frozen=True)
 class Report:
     """One status of /diagnostics: time [s], name, level, message, the texts of its values."""
 
@@ -87,5 +100,6 @@ class Series:
     send_delay: np.ndarray = dataclasses.field(default_factory=lambda: np.empty(0))  # [s]
     parameters: dict = dataclasses.field(default_factory=dict)
     versions: dict = dataclasses.field(default_factory=dict)
+    cavities: Cavities | None = None     # without gas there are none
     source: str = ''
     path: Path | None = None

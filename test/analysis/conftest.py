@@ -92,6 +92,8 @@ def as_recording(run: Series, directory: Path) -> Path:
     found = [(topic, stamp, stamp + delay, message)
              for stamp, row in zip(run.stamps.tolist(), _rows(run))
              for topic, message in row]
+    if run.cavities is not None:
+        found += _cavities(run, topics)
     found += [(topics.spool_command, start + round(t * 1e9), start + round(t * 1e9),
                messages.float64(value)) for t, (value,) in
               zip(run.commands[0].time, run.commands[0].values)]
@@ -108,6 +110,20 @@ def as_recording(run: Series, directory: Path) -> Path:
     with RecordingWriter(directory, topics.all(), custom_data) as writer:
         writer.write_batch(sorted(found, key=lambda message: message[1]))
     return directory
+
+
+def _cavities(run: Series, topics: ActuatorTopics) -> list:
+    """Return the messages about cavities, one per state."""
+    channels, found = Channels(run.section_names, 1), []
+    encoder = TickEncoder(channels, ('piston_joint', 'valve_joint'), topics)
+    row = channels.empty_row()
+    for tick, stamp in enumerate(run.stamps.tolist()):
+        for name in ('open', 'opened', 'collapsed'):
+            row[getattr(channels, f'cavities_{name}')] = getattr(run.cavities, name)[tick]
+        row[channels.cavity_volume] = run.cavities.volume[tick]
+        row[channels.domain_cavities] = run.cavities.of_domain[tick]
+        found.append((topics.cavities, stamp, stamp, encoder.cavities(row.tolist(), stamp)))
+    return found
 
 
 def _rows(run: Series):

@@ -58,3 +58,11 @@ def test_a_missing_matplotlib_is_one_line_that_names_the_remedy(monkeypatch, run
     monkeypatch.setitem(sys.modules, 'matplotlib', None)
     with pytest.raises(InputError, match=r'pip install hydra_actuator\[report\]'):
         picture(run)
+
+
+def test_a_plain_run_below_vacuum_says_so_in_the_picture(run):
+    assert not picture(run).texts
+    pressure = run.pressure.copy()
+    pressure[70, 10] = -2.5e6
+    (text,) = picture(replace(run, pressure=pressure)).texts
+    assert 'below vacuum' in text.get_text()
