@@ -180,12 +180,16 @@ class ActuatorNode(LifecycleNode):
             values['simulated_time'] = f'{rig.actuator.time:.9g}'
             values['resets'] = str(rig.plant.resets)
             values['stop_hits'] = str(rig.actuator.stop_hits)
+            oil = rig.oil()
+            values.update(oil.values)
         if self.problem:
             return statuses.Status('Solver', statuses.ERROR, self.problem, values)
         if rig is not None and not rig.plant.enabled:
             return statuses.Status(
                 'Solver', statuses.WARN, 'emergency stop: valve centred, supply off', values)
         paused = rig is not None and rig.paused
+        if rig is not None and self._active and not paused and oil.level:
+            return statuses.Status('Solver', oil.level, oil.message, values)
         return statuses.Status(
             'Solver', statuses.OK, 'paused' if paused else self._state_name, values)
 

@@ -9,7 +9,6 @@ state, its publish time the one at which the batch was taken from the ring.
 
 from collections.abc import Callable, Iterator, Mapping
 import math
-import threading
 import time
 
 from hydra_actuator.channels import Channels
@@ -17,6 +16,7 @@ from hydra_actuator.recording import messages
 from hydra_actuator.recording.tick import AppliedEncoder, FieldEncoder, TickEncoder
 from hydra_actuator.recording.topics import ActuatorTopics
 from hydra_actuator.ros.ring import Frame, Ring, Tick
+from hydra_actuator.ros.worker import Worker
 import numpy as np
 
 Publish = Callable[[bytes], None]
@@ -62,15 +62,14 @@ class Outputs:
         self._applied = AppliedEncoder(channels.spools)
         self._last_inputs: list[float] | None = None
         self._field: FieldEncoder | None = None
-        self._thread: threading.Thread | None = None
-        self._stopping = False
+        self._worker = Worker('outputs', self._run)
 
     def encoder_for(self, joint_names: tuple[str, ...]) -> TickEncoder:
         """Return an encoder that names piston and spools so, to be put into `encoder`."""
         return TickEncoder(self._channels, joint_names, self._topics)
 
     def set_rates(self, parameters: Mapping[str, float]) -> None:
-        """Take the rates of publishing from parameters."""
+        """Take the rates of publishing, and whether there are cavities, from parameters."""
         period = parameters['timing.period']
         self._joint_states, self._pressures, self._sections = (
             Schedule(parameters[f'publish.{rate}'], period)
@@ -78,20 +77,15 @@ class Outputs:
         clock_rate = parameters['publish.clock_rate'] if parameters['publish.clock'] else 0.0
         self._clock = Schedule(clock_rate, period)
         self._period_ns = round(period * 1e9)
+        self._boils = parameters['fluid.cavitation']
 
     def start(self) -> None:
         """Begin publishing."""
-        self._stopping = False
-        self._thread = threading.Thread(target=self._run, name='outputs', daemon=True)
-        self._thread.start()
+        self._worker.start()
 
     def stop(self) -> None:
         """Publish what is in the ring, then end the thread."""
-        if self._thread is not None:
-            self._stopping = True
-            self._ring.signal()
-            self._thread.join()
-            self._thread = None
+        self._worker.stop(self._ring.signal)
 
     def forget_inputs(self) -> None:
         """Have the next tick say what was applied, changed or not."""
@@ -99,7 +93,7 @@ class Outputs:
 
     def _run(self) -> None:
         try:
-            while not self._stopping:
+            while not self._worker.stopping:
                 self._ring.wait(0.1)
                 self.take()
             self.take()
@@ -137,6 +131,8 @@ class Outputs:
                 yield topic, stamp, data
         if self._sections.due(number):
             yield self._topics.sections, stamp, encoder.sections(row, stamp)
+            if self._boils:
+                yield self._topics.cavities, stamp, encoder.cavities(row, stamp)
         if self._clock.due(number):
             yield self._topics.clock, stamp, messages.clock(stamp)
         if tick.inputs != self._last_inputs:

@@ -29,6 +29,8 @@ class Publishers:
         """Create what the parameters want, and write the full names into `topics`."""
         topics.joint_states = self._create(JointState, 'joint_states')
         topics.sections = self._create(Float64MultiArray, '~/sections')
+        if parameters['fluid.cavitation']:
+            topics.cavities = self._create(Float64MultiArray, '~/cavities')
         topics.applied = self._create(Float64MultiArray, '~/applied')
         for name in topics.pressure:
             topics.pressure[name] = self._create(FluidPressure, f'~/pressure/{name}')

@@ -52,6 +52,7 @@ class Rig:
         self._reports = reports
         self._on_failure = on_failure
         self._missed, self._rejected = statuses.Recently(), statuses.Recently()
+        self._boiled, self._vacuum = statuses.Recently(), statuses.Recently()
         self.actuator = Actuator(parameters)
         self._build_plant()
         self.topics = ActuatorTopics(
@@ -146,6 +147,14 @@ class Rig:
         self._disconnect()
         return complete
 
+    def oil(self) -> statuses.Status:
+        """Return whether the oil boils, or would."""
+        actuator = self.actuator
+        cavities = actuator.cavities
+        return statuses.oil(
+            cavities, actuator.vacuum_ticks, self.parameters['fluid.cavitation'],
+            (self._boiled.grew(cavities.opened), self._vacuum.grew(actuator.vacuum_ticks)))
+
     def statuses(self) -> list[statuses.Status]:
         """Return what diagnostics say, but for the state of the solver."""
         return [
@@ -193,6 +202,10 @@ class Rig:
             Watched('Command', warn, 'messages dropped', lambda: self.desk.rejections),
             Watched('Command', warn, 'silence', lambda: self.setpoint.timeouts),
             Watched('Solver', warn, 'end stop hit', lambda: self.actuator.stop_hits),
+            Watched('Solver', warn, 'cavity opened', lambda: self.actuator.cavities.opened),
+            Watched('Solver', statuses.OK, 'cavity collapsed',
+                    lambda: self.actuator.cavities.collapsed),
+            Watched('Solver', warn, statuses.VACUUM, lambda: self.actuator.vacuum_ticks),
             Watched('Recorder', statuses.ERROR, 'recording broke off',
                     lambda: int(bool(self.recorder.error))),
         ]

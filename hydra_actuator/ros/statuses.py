@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 import time
 
+from hydra_actuator.actuator import Cavities
 from hydra_actuator.pacer import Pacer
 from hydra_actuator.ros.commands import CommandDesk
 from hydra_actuator.ros.recorder import Recorder
@@ -17,6 +18,7 @@ from hydra_actuator.ros.setpoint import Setpoint
 
 OK, WARN, ERROR = 0, 1, 2
 RECENT = 2.0
+VACUUM = 'pressure below vacuum: turn fluid.cavitation on'
 
 
 @dataclass(frozen=True)
@@ -113,6 +115,29 @@ def recorder(recorder: Recorder) -> Status:
     if dropped:
         return Status('Recorder', WARN, f'{dropped} messages dropped', values)
     return Status('Recorder', OK, f'recording to {recorder.path}', values)
+
+
+def oil(
+    cavities: Cavities, vacuum_ticks: int, cavitation: bool, recently: tuple[bool, bool]
+) -> Status:
+    """
+    Return the solver's part about boiling oil; volumes in m^3.
+
+    recently: whether a cavity opened, whether the plain oil fell below vacuum.
+    """
+    if not cavitation:
+        values = {'cavitation': 'off', 'ticks_below_vacuum': str(vacuum_ticks)}
+        return Status('Solver', WARN, VACUUM, values) if recently[1] else (
+            Status('Solver', OK, '', values))
+    values = {
+        'cavitation': 'on', 'cavities_open': str(cavities.open),
+        'cavities_opened': str(cavities.opened), 'cavities_collapsed': str(cavities.collapsed),
+        'largest_cavity_volume': f'{cavities.largest:.4g}',
+    }
+    if cavities.open or recently[0]:
+        return Status('Solver', WARN, f'the oil boils: {cavities.open} cavities open, '
+                      f'{cavities.opened} opened so far', values)
+    return Status('Solver', OK, '', values)
 
 
 def faults() -> Status:
