@@ -16,6 +16,7 @@ from hydra_actuator.verification import (
     mirror,
     oil_column,
     passes,
+    servo_loop,
     spool_response,
 )
 from hydra_actuator.verification.case import Case
@@ -30,6 +31,7 @@ CASES: dict[str, Case] = {
     **mirror.CASES,
     **oil_column.CASES,
     **spool_response.CASES,
+    **servo_loop.CASES,
     **friction_transient.CASES,
     **friction_blocked.CASES,
     **figure_cavitation.CASES,
