@@ -4,6 +4,9 @@
 from hydra_actuator.verification import (
     cell_crossing,
     conservation,
+    cylinder_laws,
+    end_stops,
+    equilibrium_rest,
     figure_adelaide,
     figure_budget,
     figure_cavitation,
@@ -16,8 +19,11 @@ from hydra_actuator.verification import (
     mirror,
     oil_column,
     passes,
+    seals,
     servo_loop,
     spool_response,
+    supply_laws,
+    valve_laws,
 )
 from hydra_actuator.verification.case import Case
 
@@ -32,6 +38,12 @@ CASES: dict[str, Case] = {
     **oil_column.CASES,
     **spool_response.CASES,
     **servo_loop.CASES,
+    **cylinder_laws.CASES,
+    **seals.CASES,
+    **end_stops.CASES,
+    **supply_laws.CASES,
+    **valve_laws.CASES,
+    **equilibrium_rest.CASES,
     **friction_transient.CASES,
     **friction_blocked.CASES,
     **figure_cavitation.CASES,
