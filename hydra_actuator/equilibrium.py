@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The actuator in equilibrium: valve centred, no load, piston at rest, steady flow everywhere.
+The actuator in equilibrium: piston at rest, steady flow everywhere; valve centred, no load.
 
-Pressures follow from the flow that leakage and underlap let through, the position from
-A1 p1 - A2 p2 = k x, at a stop if that lies beyond. What nothing determines is as `initial.` says:
+Pressures follow from the flow that leakage and underlap let through (or a valve held open), the
+position from A1 p1 - A2 p2 = k x + load, at a stop if that lies beyond. What nothing determines is as `initial.` says:
 
 - a chamber that nothing reaches keeps its pressure if a spring can answer it; without a spring it
   takes the pressure that balances the other, and of two such the harder pushing one gives in;
@@ -68,22 +68,33 @@ def start(parameters: Parameters) -> tuple[Model, State]:
     if not parameters['initial.equilibrium']:
         return model, state
     found = find_equilibrium(parameters, model)
+    return start_at(parameters, found)
+
+
+def start_at(parameters: Parameters, found: Equilibrium) -> tuple[Model, State]:
+    """Return model and state at an equilibrium."""
     model, state = assemble(parameters.replace({'initial.position': found.position}))
     _set_state(parameters, model, state, found)
     return model, state
 
 
-def find_equilibrium(p: Parameters, model: Model) -> Equilibrium:
-    """Return the equilibrium of an assembled actuator."""
-    lone = _lone_pressures(p, model)
+def find_equilibrium(p: Parameters, model: Model, spools: tuple[float, float] = (0.0, 0.0),
+                     load: float = 0.0) -> Equilibrium:
+    """
+    Return the equilibrium of an assembled actuator.
+
+    spools: where the valve is held [m]; load: external force [N], positive against x > 0.
+    """
+    edges = conductances(model, spools)
+    lone = _lone_pressures(p, edges, load)
     pump, tank = p['supply.pressure'], p['tank.pressure']
-    network = solve_network(model, pump, tank, lone)
+    network = solve_network(model, pump, tank, lone, edges)
     most = p['supply.max_flow']
     if 0.0 < most < network[PA] + network[PB]:
         low, high = min(tank, pump), pump
         for _ in range(MOST_BISECTIONS):
             pump = 0.5 * (low + high)
-            network = solve_network(model, pump, tank, lone)
+            network = solve_network(model, pump, tank, lone, edges)
             if network[PA] + network[PB] > most:
                 high = pump
             else:
@@ -91,21 +102,20 @@ def find_equilibrium(p: Parameters, model: Model) -> Equilibrium:
             if high - low < 1e-9 * high:
                 break
     if p['cylinder.stiffness'] == 0.0 and p['cylinder.leakage'] == 0.0:
-        ratio = p['cylinder.area_1'] / p['cylinder.area_2']
+        area_1, area_2 = p['cylinder.area_1'], p['cylinder.area_2']
         if lone[0] is None and lone[1] is not None:
-            network[AT_I] = ratio * network[AT_B]
+            network[AT_I] = (area_1 * network[AT_B] - load) / area_2
         if lone[1] is None and lone[0] is not None:
-            network[AT_B] = network[AT_I] / ratio
+            network[AT_B] = (area_2 * network[AT_I] + load) / area_1
     face_1, face_2, _ = past_piston(model, network[AT_B], network[PAST])
     if p['cylinder.leakage'] == 0.0:
         face_2 = float(network[AT_I])
-    position, force = _position(p, face_1, face_2)
+    position, force = _position(p, face_1, face_2, load)
     return Equilibrium(pump, face_1, face_2, network, position, force)
 
 
-def _lone_pressures(p: Parameters, model: Model) -> tuple[float | None, float | None]:
+def _lone_pressures(p: Parameters, edges: list, load: float) -> tuple[float | None, float | None]:
     """Return the pressures [Pa] of chambers that no edge of the valve reaches, else None."""
-    edges = conductances(model)
     reached = [any(sum(edges[k]) > 0.0 for k in pair) for pair in ((PA, AT), (PB, BT))]
     given = [p['initial.pressure_1'], p['initial.pressure_2']]
     if p['cylinder.leakage'] > 0.0:
@@ -116,27 +126,33 @@ def _lone_pressures(p: Parameters, model: Model) -> tuple[float | None, float | 
             mean = 0.0
         return mean, None
     if not any(reached) and p['cylinder.stiffness'] == 0.0:
-        ratio = p['cylinder.area_1'] / p['cylinder.area_2']
-        lower_1 = given[0] * ratio > given[1]
-        floor = p['fluid.vapour_pressure'] - p['ambient_pressure']
-        if (given[1] / ratio if lower_1 else given[0] * ratio) < floor:
-            lower_1 = not lower_1
-        if lower_1:
-            given[0] = given[1] / ratio
-        else:
-            given[1] = given[0] * ratio
+        given = list(balanced(p, load))
     return tuple(None if r else float(g) for r, g in zip(reached, given))
 
 
-def _position(p: Parameters, face_1: float, face_2: float) -> tuple[float, float]:
+def balanced(p: Parameters, load: float) -> tuple[float, float]:
+    """Return the initial pressures [Pa], the harder pushing one lowered to hold a load [N]."""
+    given = p['initial.pressure_1'], p['initial.pressure_2']
+    area_1, area_2 = p['cylinder.area_1'], p['cylinder.area_2']
+    lowered = (area_2 * given[1] + load) / area_1, (area_1 * given[0] - load) / area_2
+    floor = p['fluid.vapour_pressure'] - p['ambient_pressure']
+    lower_1 = lowered[0] < given[0]
+    if lowered[0 if lower_1 else 1] < floor:
+        lower_1 = not lower_1
+    return (lowered[0], given[1]) if lower_1 else (given[0], lowered[1])
+
+
+def _position(p: Parameters, face_1: float, face_2: float,
+              load: float) -> tuple[float, float]:
     """Return position [m] and the force [N] on the piston there, friction left out."""
     push_1, push_2 = p['cylinder.area_1'] * face_1, p['cylinder.area_2'] * face_2
-    push, limit = push_1 - push_2, 0.5 * p['cylinder.stroke']
+    push, limit = push_1 - push_2 - load, 0.5 * p['cylinder.stroke']
     stiffness = p['cylinder.stiffness']
     if stiffness > 0.0:
         position = min(limit, max(-limit, push / stiffness))
         return position, push - stiffness * position
-    seals = max(p['cylinder.static_friction'], BALANCED * (abs(push_1) + abs(push_2)))
+    seals = max(p['cylinder.static_friction'],
+                BALANCED * (abs(push_1) + abs(push_2) + abs(load)))
     if abs(push) <= seals:
         return p['initial.position'], push
     return math.copysign(limit, push), push

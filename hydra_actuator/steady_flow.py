@@ -69,11 +69,13 @@ def beyond_line(model: Model, d: int, pressure: float, flow: float, steps: int =
         min(1.0, max(-1.0, mu / model.wave_speed[d])))
 
 
-def conductances(model: Model) -> list[tuple[float, float]]:
-    """Return (K' [m^3/(s sqrt(Pa))], leakage [m^3/(s Pa)]) of the edges of the centred valve."""
+def conductances(model: Model, spools: tuple[float, float] = (0.0, 0.0)
+                 ) -> list[tuple[float, float]]:
+    """Return (K' [m^3/(s sqrt(Pa))], leakage [m^3/(s Pa)]) of the edges; spools [m]: centred."""
     valve = model.valve[0]
-    return [(float(gain * max(0.0, -overlap)), float(valve['leakage']))
-            for gain, overlap in zip(valve['flow_gain'], valve['overlap'])]
+    ways = (spools[0], -spools[1], -spools[0], spools[1])
+    return [(float(gain * max(0.0, way - overlap)), float(valve['leakage']))
+            for gain, way, overlap in zip(valve['flow_gain'], ways, valve['overlap'])]
 
 
 def past_piston(model: Model, pressure: float, flow: float) -> tuple[float, float, float]:
@@ -86,14 +88,14 @@ def past_piston(model: Model, pressure: float, flow: float) -> tuple[float, floa
         model, LINE_2, face_2 - _drop(flow, port_2, 0.0)[0], flow)
 
 
-def solve_network(model: Model, supply: float, tank: float, lone: tuple) -> np.ndarray:
+def solve_network(model: Model, supply: float, tank: float, lone: tuple,
+                  edges: list) -> np.ndarray:
     """
     Return the seven unknowns, indexed PA .. AT_I, at the pressures [Pa] of pump and tank.
 
-    lone: the pressure [Pa] of B and of I where nothing reaches it, None where something does.
-    Raises ParameterError where no steady flow is found.
+    lone: the pressure [Pa] of B and of I where nothing reaches it, None where something does;
+    edges: as `conductances` returns them. Raises ParameterError where no steady flow is found.
     """
-    edges = conductances(model)
     span = max(abs(supply - tank), 1.0)
     unknown = np.zeros(7)
     unknown[AT_B] = unknown[AT_I] = 0.5 * (supply + tank)
