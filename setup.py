@@ -34,13 +34,14 @@ setup(
     ],
     extras_require={
         'test': [
-            'hypothesis', 'matplotlib', 'mcap-ros2-support', 'plotly', 'pytest', 'rosbags', 'ruff',
-            'scipy',
+            'control', 'hypothesis', 'matplotlib', 'mcap-ros2-support', 'plotly', 'pytest', 'rosbags',
+            'ruff', 'scipy',
         ],
         'ros': [
             'ros-jazzy-rclpy', 'ros-jazzy-common-interfaces', 'ros-jazzy-rmw-fastrtps-cpp',
         ],
         'report': ['matplotlib', 'plotly', 'scipy'],
+        'response': ['control>=0.10', 'matplotlib', 'scipy'],
     },
     zip_safe=False,
     entry_points={

@@ -24,6 +24,7 @@ VERBS = {
     'report': 'one self-contained page about a recording',
     'info': 'what a recording holds',
     'verify': 'the solver against exact solutions and conservation laws',
+    'response': 'frequency response about an operating point, null curves of the valve',
     'bench': 'speed of the solver',
 }
 

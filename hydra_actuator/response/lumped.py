@@ -121,7 +121,8 @@ def lumped_modes(lumped: Lumped) -> list[Mode]:
         [1.0 / m, -1.0 / m, -lumped.viscous / m, -lumped.stiffness / m],
         [0.0, 0.0, 1.0, 0.0]])
     plant = control.ss(matrix, np.zeros((4, 1)), np.eye(4), np.zeros((4, 1)))
-    omega, damping, poles = plant.damp()
+    with np.errstate(invalid='ignore'):      # a position without spring: a pole at 0
+        omega, damping, poles = plant.damp()
     return sorted({Mode(float(w) / (2.0 * math.pi), float(z))
                    for w, z, s in zip(omega, damping, poles) if s.imag > 1e-6 * abs(s)})
 
