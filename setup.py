@@ -34,8 +34,8 @@ setup(
     ],
     extras_require={
         'test': [
-            'control', 'hypothesis', 'matplotlib', 'mcap-ros2-support', 'plotly', 'pytest', 'rosbags',
-            'ruff', 'scipy',
+            'control', 'hypothesis', 'matplotlib', 'mcap-ros2-support', 'plotly', 'pytest',
+            'rosbags', 'ruff', 'scipy',
         ],
         'ros': [
             'ros-jazzy-rclpy', 'ros-jazzy-common-interfaces', 'ros-jazzy-rmw-fastrtps-cpp',

@@ -3,7 +3,8 @@
 The actuator in equilibrium: piston at rest, steady flow everywhere; valve centred, no load.
 
 Pressures follow from the flow that leakage and underlap let through (or a valve held open), the
-position from A1 p1 - A2 p2 = k x + load, at a stop if that lies beyond. What nothing determines is as `initial.` says:
+position from A1 p1 - A2 p2 = k x + load, at a stop if that lies beyond. What nothing determines
+is as `initial.` says:
 
 - a chamber that nothing reaches keeps its pressure if a spring can answer it; without a spring it
   takes the pressure that balances the other, and of two such the harder pushing one gives in;

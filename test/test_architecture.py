@@ -35,13 +35,18 @@ ROOMS = {
     'interruption': (set(), set()),
     'verification': (
         {'verification', 'core', 'kernels', 'assembly', 'actuator', 'geometry', 'simulate',
-         'parameters', 'analysis'},
+         'parameters', 'analysis', 'response'},
         {'numpy', 'scipy', 'matplotlib'},
     ),
     'paper': (
         {'paper', 'verification', 'core', 'kernels', 'geometry', 'assembly', 'actuator',
          'simulate', 'signals', 'interruption', 'parameters', 'analysis'},
         {'numpy', 'scipy', 'matplotlib'},
+    ),
+    'response': (
+        {'response', 'core', 'assembly', 'geometry', 'equilibrium', 'steady_flow', 'actuator',
+         'parameters', 'analysis'},
+        {'numpy', 'scipy', 'control', 'matplotlib'},
     ),
     'ros': None,
     'cli': None,

@@ -22,13 +22,13 @@ and valve_slopes; with a steady speed, that the chambers' lengths change.
 import math
 from typing import NamedTuple
 
-from hydra_actuator.assembly import DOMAINS, domain_lengths, LINES
 from hydra_actuator.core.orifice import orifice_drop
 from hydra_actuator.core.source import GAS_EXPONENT, stored_oil
+from hydra_actuator.geometry import domain_lengths, DOMAINS, LINES
 from hydra_actuator.response.line_matrix import line_matrix, line_state, LineState
 from hydra_actuator.response.operating_point import OperatingPoint
 from hydra_actuator.response.valve_slopes import valve_slopes, ValveSlopes
-from hydra_actuator.steady_flow import AT_I, beyond_line, COARSE, LINE_2, PAST, PORT_1, PORT_2
+from hydra_actuator.steady_flow import AT_I, beyond_line, COARSE, LINE_2, PORT_1, PORT_2
 import numpy as np
 
 # Unknowns: (dp, dq) at start and end of domain d are 4 d .. 4 d + 3, then the edges and v.

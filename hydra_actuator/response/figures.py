@@ -26,6 +26,8 @@ CIRCLES = {'linestyle': 'none', 'marker': 'o', 'markersize': 4.5, 'markerfacecol
 # The null region shown beyond overlap and underlap, of the stroke.
 AROUND_NULL, LEAST_REACH = 2.5, 0.05
 LITRES_PER_MINUTE = 6e4
+# Of a line that another may cover.
+WIDE = 3.2
 
 
 def write_figures(study: Study, directory: Path) -> list[Path]:
@@ -73,7 +75,7 @@ def draw_pressure(figure, study: Study) -> None:
     for name, colour, label in (('pressure_1', BLUE, 'face 1 (E)'),
                                 ('pressure_2', VERMILION, 'face 2 (F)'),
                                 ('load_pressure', GREEN, 'load pressure')):
-        _curves(gain, phase, study, name, colour, label)
+        _curves(gain, phase, study, name, colour, label, WIDE if name == 'pressure_1' else 1.4)
     gain.set_ylabel('pressure over spool [Pa/m]')
     gain.set_title(_title('Spool to pressure', study), loc='left', fontsize=10)
     gain.legend(loc='best', ncols=2)
@@ -106,16 +108,16 @@ def draw_valve(figure, study: Study) -> None:
     for values, colour, label in ((curves.pressure_1, BLUE, 'port A'),
                                   (curves.pressure_2, VERMILION, 'port B'),
                                   (curves.load_pressure, GREEN, 'load (A - B)')):
-        pressure.plot(x, values / 1e6, color=colour, label=label)
+        pressure.plot(x, values / 1e6, color=colour, label=label,
+                      linewidth=WIDE if label == 'port A' else 1.4)
     pressure.set_ylabel('blocked ports [MPa]')
-    pressure.set_title(f'pressure gain, K_p0 = {null.pressure_gain:.4g} Pa/m', loc='left',
-                       fontsize=9)
+    pressure.set_title(_pressure_gain(null.pressure_gain), loc='left', fontsize=9)
     pressure.legend(loc='best')
     leakage.plot(x, LITRES_PER_MINUTE * curves.leakage, color=ORANGE)
     leakage.set_ylabel('leakage, ports blocked [l/min]')
     leakage.set_title(f'leakage, {LITRES_PER_MINUTE * null.leakage:.4g} l/min at null',
                       loc='left', fontsize=9)
-    leakage.set_ylim(bottom=0.0)
+    leakage.set_ylim(0.0, 1.1 * LITRES_PER_MINUTE * curves.leakage.max() or 1.0)
     for axes in (flow, pressure, leakage):
         axes.set_xlabel('spool [% of stroke]')
         if null.region != 'none':
@@ -124,6 +126,11 @@ def draw_valve(figure, study: Study) -> None:
         flow.annotate(f'{null.region} {100 * null.low:+.3g} to {100 * null.high:+.3g} %',
                       (0.03, 0.9), xycoords='axes fraction', fontsize=8, color=INK)
     _draw_load_flow(load, study, reach)
+
+
+def _pressure_gain(gain: float) -> str:
+    value = 'infinite' if np.isinf(gain) else f'{gain:.4g} Pa/m'
+    return f'pressure gain, K_p0 = {value}'
 
 
 def _draw_load_flow(axes, study: Study, reach: float) -> None:
@@ -140,11 +147,13 @@ def _draw_load_flow(axes, study: Study, reach: float) -> None:
     axes.legend(loc='center left', bbox_to_anchor=(1.0, 0.5), handlelength=1.2)
 
 
-def _curves(gain, phase, study: Study, name: str, colour: str, label: str) -> None:
+def _curves(gain, phase, study: Study, name: str, colour: str, label: str,
+            width: float = 1.4) -> None:
     """Draw one quantity of all three models."""
     exact = study.distributed
     first = 'lumped' not in gain.get_legend_handles_labels()[1]
-    _line(gain, phase, exact.frequency, getattr(exact, name), {'color': colour, 'label': label})
+    _line(gain, phase, exact.frequency, getattr(exact, name), {
+        'color': colour, 'label': label, 'linewidth': width})
     lumped = getattr(study.lumped, name)
     if np.isfinite(lumped).all():
         _line(gain, phase, exact.frequency, lumped, {

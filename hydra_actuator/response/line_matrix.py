@@ -98,7 +98,7 @@ def line_matrix(line: LineState, s: np.ndarray) -> np.ndarray:
 
 
 def memory(rate: float, s: np.ndarray) -> np.ndarray:
-    """Return memory(s) [1/s] of laminar flow in a line of rate nu/r^2 [1/s]; 0 for rate 0."""
+    """Return what laminar friction remembers [1/s], for a rate nu/r^2 [1/s]; 0 for rate 0."""
     if rate == 0.0:
         return np.zeros_like(s)
     from scipy.special import ive

@@ -2,8 +2,9 @@
 """
 Natural frequencies and damping of the distributed plant: zeros of its determinant.
 
-Newton's method on det N(s) from many starts along the imaginary axis. A plant with waves has infinitely many modes; those are kept that the spool moves
-the piston with. A mode is s = omega (-zeta +- i sqrt(1 - zeta^2)).
+Newton's method on det N(s) from many starts along the imaginary axis. A plant with waves has
+infinitely many modes; those are kept that spool or load move the piston with. A mode is
+s = omega (-zeta +- i sqrt(1 - zeta^2)).
 """
 
 import math

@@ -228,10 +228,10 @@ def _complete(p: Parameters, spools: tuple, load: float, found: Equilibrium,
             f'the oil cavitates at this operating point: station {station} would be at '
             f'{absolute:.4g} Pa absolute; raise tank.pressure or lower spool and load')
     notes = []
-    if p['cylinder.coulomb_friction'] > 0.0 or p['cylinder.static_friction'] > 0.0:
-        notes.append(
-            'seal friction is left out: the piston is taken to slide without it; with it, small '
-            f'motions stick below {max(p["cylinder.static_friction"], p["cylinder.coulomb_friction"]):g} N')
+    sticks = max(p['cylinder.coulomb_friction'], p['cylinder.static_friction'])
+    if sticks > 0.0:
+        notes.append('seal friction is left out, as if the piston slid without it; in truth it '
+                     f'sticks where less than {sticks:g} N moves it')
     if speed != 0.0:
         notes.append(f'the piston passes at {speed:.4g} m/s, its position held fixed')
     limited = found.pump < p['supply.pressure'] * (1.0 - 1e-12)

@@ -2,10 +2,10 @@
 """
 The response of the nonlinear solver itself: small sines and a small knock about a piston at rest.
 
-A sine fades in softly, then its first harmonic is fitted beside higher ones, mean, drift, bend. Amplitudes
-are so small that second-order terms vanish; `linearity` measures what is left of them by a run at
-four times the amplitude. Natural frequency and damping come from the ringing after a knock of
-the load, by Juang and Pappa's eigensystem realisation (J. Guidance 8, 1985, 620-627).
+A sine fades in softly, then its first harmonic is fitted beside higher ones, mean, drift and bend.
+Amplitudes are so small that second-order terms vanish; `linearity` measures what is left of them
+by a run at four times the amplitude. Natural frequency and damping come from the ringing after a
+knock of the load, by Juang and Pappa's eigensystem realisation (J. Guidance 8, 1985, 620-627).
 """
 
 from collections.abc import Callable
@@ -31,7 +31,7 @@ KNOCK, RINGING, RATE, ORDER = 0.3, 16, 16, 8
 
 
 class SolverAt(Actuator):
-    """The actuator, started at an operating point with its piston at rest."""
+    """The actuator without seal friction, started at an operating point, its piston at rest."""
 
     def __init__(self, point: OperatingPoint) -> None:
         """Build it; raises InputError for a piston in motion."""
@@ -40,6 +40,7 @@ class SolverAt(Actuator):
         self.point = point
         super().__init__(point.parameters.replace({
             'sections.names': ('E', 'F'), 'sections.positions': (),
+            'cylinder.coulomb_friction': 0.0, 'cylinder.static_friction': 0.0,
             'initial.equilibrium': False}))
 
     def reset(self) -> None:
@@ -157,7 +158,10 @@ def solver_mode(point: OperatingPoint, near: float) -> Mode | None:
     for k in range(len(ringing)):
         actuator.drive(knock, every, amplitudes)
         ringing[k] = actuator.row[actuator.channels.VELOCITY]
-    ringing /= np.abs(ringing).max()
+    largest = np.abs(ringing).max()
+    if not largest > 0.0:
+        return None
+    ringing /= largest
     half = len(ringing) // 2 - 1
     found, _ = control.eigensys_realization(
         ringing, ORDER, m=half, n=half, dt=every * actuator.step_time)

@@ -25,7 +25,7 @@ def table(study: Study) -> list[str]:
     lines = ['operating point']
     lines += _rows([
         ('spool', ', '.join(f'{x / stroke:g}' for x in _spools(study)), 'of its stroke'),
-        ('load', f'{point.load:g}', 'N'), ('position', f'{point.position:.6g}', 'm'),
+        ('load', f'{point.load:g}', 'N'), ('position', f'{round(point.position, 12):.6g}', 'm'),
         ('velocity', f'{point.velocity:.5g}', 'm/s'),
         ('pressure O, A, J', _megapascals(point.pump, point.at_a, point.at_j), 'MPa'),
         ('pressure B, E, F, I', _megapascals(
@@ -47,7 +47,7 @@ def table(study: Study) -> list[str]:
         ('largest leakage', f'{6e4 * null.most_leakage:.5g}', 'l/min'),
         (f'{null.region} region' if null.region != 'none' else 'overlap region', _region(null),
          '% of stroke')])
-    return lines + ['', *_comparison(study), *(f'note: {note}' for note in study.notes)]
+    return [*lines, '', *_comparison(study), *(f'note: {note}' for note in study.notes)]
 
 
 def write_csv(study: Study, path: Path) -> None:
@@ -99,7 +99,8 @@ def _comparison(study: Study) -> list[str]:
     if others:
         lines.append('  further modes up to '
                      f'{study.distributed.frequency[-1]:g} Hz, waves in lines and chambers: '
-                     + ', '.join(f'{m.frequency:.4g} Hz ({max(0.0, m.damping):.2g})' for m in others))
+                     + ', '.join(
+                         f'{m.frequency:.4g} Hz ({max(0.0, m.damping):.2g})' for m in others))
     if study.solver is not None:
         lines.append(f'  solver from the distributed plant at most {_worst(study):.2g} '
                      f'in velocity and stiffness, {study.solver.frequency[0]:.4g} to '
@@ -121,7 +122,9 @@ def _worst(study: Study) -> float:
 
 
 def _at_mode(study: Study) -> str:
-    return '-' if study.solver is None else _number(abs(study.solver.velocity[-1]))
+    if study.solver is None or not np.abs(study.distributed.velocity).max() > 0.0:
+        return '-'
+    return _number(abs(study.solver.velocity[-1]))
 
 
 def _spools(study: Study) -> tuple[float, ...]:

@@ -114,7 +114,7 @@ class Bench:
 
 
 def bisect(falling, low: float, high: float, shape: tuple) -> np.ndarray:
-    """Return where a falling function of pressures crosses 0, the middle where it is flat there."""
+    """Return where a falling function of pressures is 0, the middle where it is flat there."""
     edges = []
     for beyond in (lambda v: v > 0.0, lambda v: v >= 0.0):
         a, b = np.full(shape, float(low)), np.full(shape, float(high))
@@ -136,7 +136,8 @@ def valve_curves(bench: Bench, reach: float = 1.0, points: int = POINTS) -> Valv
 
 def _leakage(bench: Bench, spool: np.ndarray, p_1: np.ndarray, p_2: np.ndarray) -> np.ndarray:
     """Return the flow from supply [m^3/s] with both ports blocked."""
-    return sum(np.nan_to_num(bench.edge(k, spool, bench.supply - p)) for k, p in ((0, p_1), (1, p_2)))
+    return sum(np.nan_to_num(bench.edge(k, spool, bench.supply - p))
+               for k, p in ((0, p_1), (1, p_2)))
 
 
 def null_figures(bench: Bench) -> NullFigures:
@@ -155,7 +156,7 @@ def null_figures(bench: Bench) -> NullFigures:
     if closed and flow_gain == 0.0:
         pressure_gain = 0.0
     everywhere = valve_curves(bench, points=POINTS)
-    at_null = float(_leakage(bench, np.zeros(1), curves.pressure_1[1:2], curves.pressure_2[1:2])[0])
+    at_null = float(_leakage(bench, h, curves.pressure_1, curves.pressure_2)[1])
     return NullFigures(flow_gain, pressure_gain, flow_pressure, at_null,
                        float(max(everywhere.leakage.max(), at_null)), *_region(bench))
 

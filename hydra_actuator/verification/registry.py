@@ -19,11 +19,14 @@ from hydra_actuator.verification import (
     mirror,
     oil_column,
     passes,
+    response_low_frequency,
     seals,
     servo_loop,
+    spool_dynamics,
     spool_response,
     supply_laws,
     valve_laws,
+    valve_null_curves,
 )
 from hydra_actuator.verification.case import Case
 
@@ -44,6 +47,9 @@ CASES: dict[str, Case] = {
     **supply_laws.CASES,
     **valve_laws.CASES,
     **equilibrium_rest.CASES,
+    **response_low_frequency.CASES,
+    **valve_null_curves.CASES,
+    **spool_dynamics.CASES,
     **friction_transient.CASES,
     **friction_blocked.CASES,
     **figure_cavitation.CASES,
