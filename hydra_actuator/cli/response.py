@@ -58,7 +58,10 @@ def run(arguments: argparse.Namespace) -> int:
     with ProgressBar('response') as progress:
         result = study(point, frequencies, arguments.solver, progress)
     print('\n'.join(table(result)))
-    directory.mkdir(parents=True, exist_ok=True)
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f'{directory} cannot be made: {error.strerror}') from error
     write_csv(result, directory / 'response.csv')
     written = write_figures(result, directory)
     print(f'written to {directory}: response.csv, {", ".join(path.name for path in written)}')

@@ -27,7 +27,7 @@ CIRCLES = {'linestyle': 'none', 'marker': 'o', 'markersize': 4.5, 'markerfacecol
 AROUND_NULL, LEAST_REACH = 2.5, 0.05
 LITRES_PER_MINUTE = 6e4
 # Of a line that another may cover.
-WIDE = 3.2
+WIDE = 2.6
 
 
 def write_figures(study: Study, directory: Path) -> list[Path]:
@@ -161,7 +161,8 @@ def _curves(gain, phase, study: Study, name: str, colour: str, label: str,
             'label': 'lumped' if first else None})
     if study.solver is not None:
         _line(gain, phase, study.solver.frequency, getattr(study.solver, name), {
-            **CIRCLES, 'color': colour, 'label': 'solver' if first else None})
+            **CIRCLES, 'color': colour, 'label': 'solver' if first else None},
+            (exact.frequency, getattr(exact, name)))
     gain.set_xscale('log')
     gain.set_yscale('log')
     phase.set_xlabel('frequency [Hz]')
@@ -171,19 +172,21 @@ def _curves(gain, phase, study: Study, name: str, colour: str, label: str,
     phase.set_ylim(np.nanmin(angles) - 20.0, np.nanmax(angles) + 20.0)
 
 
-def _line(gain, phase, frequency: np.ndarray, values: np.ndarray, look: dict) -> None:
-    """Draw a complex response; the phase is unwrapped where the points lie dense."""
+def _line(gain, phase, frequency: np.ndarray, values: np.ndarray, look: dict,
+          beside: tuple[np.ndarray, np.ndarray] | None = None) -> None:
+    """
+    Draw a complex response, its phase unwrapped.
+
+    beside: frequencies and values of a dense response whose turn the phase takes instead.
+    """
     size = np.abs(values)
     gain.plot(frequency, np.where(size > 0.0, size, np.nan), **look)
-    angle = np.degrees(np.angle(values))
-    phase.plot(frequency, angle if look.get('marker') else _broken(angle), **look)
-
-
-def _broken(angle: np.ndarray) -> np.ndarray:
-    """Return angles [deg] with a gap where they wrap."""
-    out = angle.copy()
-    out[1:][np.abs(np.diff(angle)) > 180.0] = np.nan
-    return out
+    angle = np.unwrap(np.angle(values))
+    if beside is not None:
+        turn = np.interp(frequency, beside[0], np.unwrap(np.angle(beside[1])))
+        angle = np.angle(values)
+        angle += 2.0 * np.pi * np.round((turn - angle) / (2.0 * np.pi))
+    phase.plot(frequency, np.degrees(angle), **look)
 
 
 def _mark_modes(axes, study: Study) -> None:

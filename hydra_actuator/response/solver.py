@@ -82,11 +82,12 @@ def solver_responses(point: OperatingPoint, frequencies: np.ndarray,
     rows = np.empty((len(frequencies), 4), complex)
     force = load_amplitude(point)
     for k, frequency in enumerate(frequencies):
-        rows[k, :3] = _sine(actuator, frequency, (AMPLITUDE, 0.0))[1:]
+        by_spool = _sine(actuator, frequency, (AMPLITUDE, 0.0))
+        rows[k, :3] = by_spool[1:4] / by_spool[4]
         progress((2 * k + 1) / (2 * len(frequencies)))
         rows[k, 3] = _sine(actuator, frequency, (0.0, force))[0]
         progress((k + 1) / len(frequencies))
-    v, p_1, p_2 = (rows[:, :3] / (AMPLITUDE * point.parameters['valve.stroke'])).T
+    v, p_1, p_2 = rows[:, :3].T
     ratio = point.parameters['cylinder.area_2'] / point.parameters['cylinder.area_1']
     return Responses(np.asarray(frequencies, float), v, p_1, p_2, p_1 - ratio * p_2,
                      -force / rows[:, 3])
@@ -101,7 +102,7 @@ def linearity(point: OperatingPoint, frequency: float) -> float:
 
 
 def _sine(actuator: SolverAt, frequency: float, amplitudes: tuple[float, float]) -> np.ndarray:
-    """Return complex amplitudes of position, velocity, pressures at E and F after a fade-in."""
+    """Return complex amplitudes of position, velocity, pressures at E and F, and spool."""
     actuator.reset()
     omega, dt = 2.0 * math.pi * frequency, actuator.step_time
     fade = max(SHORTEST_FADE, FADE_PERIODS / frequency)
@@ -112,13 +113,14 @@ def _sine(actuator: SolverAt, frequency: float, amplitudes: tuple[float, float])
 
     actuator.drive(shape, round(fade / dt), amplitudes)
     every = max(1, round(1.0 / (frequency * SAMPLES * dt)))
-    trace = np.empty((max(SAMPLES, round(window / dt) // every), 5))
+    trace = np.empty((max(SAMPLES, round(window / dt) // every), 6))
     channels = actuator.channels
     for row in trace:
         actuator.drive(shape, every, amplitudes)
         row[0] = actuator.time
         row[1:3] = actuator.row[channels.POSITION:channels.VELOCITY + 1]
-        row[3:] = actuator.row[channels.pressure]
+        row[3:5] = actuator.row[channels.pressure]
+        row[5] = actuator.row[channels.SPOOL_1]
     return fit_sine(trace[:, 0], trace[:, 1:], omega)
 
 

@@ -47,6 +47,11 @@ def table(study: Study) -> list[str]:
         ('largest leakage', f'{6e4 * null.most_leakage:.5g}', 'l/min'),
         (f'{null.region} region' if null.region != 'none' else 'overlap region', _region(null),
          '% of stroke')])
+    if point.parameters['valve.spools'] == 2:
+        lines += _rows([
+            (f'flow gain of spool {k + 1} alone, port {name}',
+             _number(study.bench.port_gain(k)), 'm^2/s, half way between the pressures')
+            for k, name in enumerate('AB')])
     return [*lines, '', *_comparison(study), *(f'note: {note}' for note in study.notes)]
 
 

@@ -98,6 +98,12 @@ class Bench:
                  + self.leak for k in (port, 2 + port)]
         return np.where(sides[0] + sides[1] > 0.0, pressure, np.nan)
 
+    def port_gain(self, port: int) -> float:
+        """Return the flow gain [m^2/s] of one port at null, half way between the pressures."""
+        spool = np.array([-NULL_STEP, NULL_STEP])
+        flow = self.into_port(port, spool, np.full(2, 0.5 * (self.supply + self.tank)))
+        return float(flow[1] - flow[0]) / (2.0 * NULL_STEP * self.stroke)
+
     def load_flow(self, spool: np.ndarray, load_pressure: np.ndarray) -> np.ndarray:
         """Return the load flow [m^3/s] at a load pressure p_A - p_B [Pa]."""
         spool, load_pressure = np.broadcast_arrays(
