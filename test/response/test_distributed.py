@@ -109,7 +109,7 @@ def test_main_mode_is_the_zero_of_the_closed_formula(plant_of):
 
 def test_waves_of_the_lines_are_modes_of_their_own(plant_of, underlap):
     frequencies = [mode.frequency for mode in find_modes(plant_of({
-        **underlap, 'cylinder.area_2': 6e-4}), 1000.0)]
+        **underlap, 'valve.gain_bt': 0.5}), 1000.0)]
     assert frequencies[1] == pytest.approx(1300.0 / (4.0 * 0.6), rel=0.01)
 
 
