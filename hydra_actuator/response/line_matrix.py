@@ -84,7 +84,7 @@ def line_state(model: Model, d: int, length: float, pressure: float, flow: float
     return LineState(
         length, middle, at, mu_slope, -at * mu_slope / speed, resistance,
         (float(profile[0]), float(profile[-1])), (float(u[0]), float(u[-1])), speed, area,
-        float(model.density), unsteady_rate, gas, float(model.floor))
+        float(model.bulk_modulus[d]) / speed ** 2, unsteady_rate, gas, float(model.floor))
 
 
 def line_matrix(line: LineState, s: np.ndarray) -> np.ndarray:
