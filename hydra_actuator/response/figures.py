@@ -63,6 +63,7 @@ def draw_velocity(figure, study: Study) -> None:
         f = study.distributed.frequency
         _line(gain, phase, f, study.distributed.velocity * study.dynamics,
               {'color': ORANGE, 'label': 'distributed, from the command'})
+        _fit(phase)
     _mark_modes(gain, study)
     gain.set_ylabel('piston velocity over spool [1/s]')
     gain.set_title(_title('Spool to piston velocity', study), loc='left', fontsize=10)
@@ -92,7 +93,7 @@ def draw_stiffness(figure, study: Study) -> None:
                   fontsize=8, color=INK)
     gain.set_ylabel('load force over position [N/m]')
     gain.set_title(_title('Dynamic stiffness', study), loc='left', fontsize=10)
-    gain.legend(loc='lower left', bbox_to_anchor=(0.0, 0.0))
+    gain.legend(loc='upper left')
 
 
 def draw_valve(figure, study: Study) -> None:
@@ -168,6 +169,11 @@ def _curves(gain, phase, study: Study, name: str, colour: str, label: str,
     phase.set_xlabel('frequency [Hz]')
     phase.set_ylabel('phase [deg]')
     phase.set_yticks(np.arange(-720, 721, 90))
+    _fit(phase)
+
+
+def _fit(phase) -> None:
+    """Let an axis of phases show all of its curves."""
     angles = np.concatenate([line.get_ydata() for line in phase.lines])
     phase.set_ylim(np.nanmin(angles) - 20.0, np.nanmax(angles) + 20.0)
 
