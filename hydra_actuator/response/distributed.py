@@ -22,9 +22,10 @@ and valve_slopes; with a steady speed, that the chambers' lengths change.
 import math
 from typing import NamedTuple
 
+from hydra_actuator.channels import DOMAINS
 from hydra_actuator.core.orifice import orifice_drop
 from hydra_actuator.core.source import GAS_EXPONENT, stored_oil
-from hydra_actuator.geometry import domain_lengths, DOMAINS, LINES
+from hydra_actuator.geometry import domain_lengths, LINES
 from hydra_actuator.response.line_matrix import line_matrix, line_state, LineState
 from hydra_actuator.response.operating_point import OperatingPoint
 from hydra_actuator.response.valve_slopes import valve_slopes, ValveSlopes
