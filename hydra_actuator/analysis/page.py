@@ -88,15 +88,15 @@ def page(title: str, subtitle: str, figures: list[Figure], tables: list[tuple],
         'TITLE': html.escape(title),
         'SUBTITLE': html.escape(subtitle),
         'WARNINGS': '\n'.join(f'<p class="warning">{html.escape(w)}</p>' for w in warnings),
-        'STYLE': _asset('style.css'),
+        'STYLE': asset('style.css'),
         'PICTURES': '\n'.join(_place(figure) for figure in figures),
-        'TABLES': '\n'.join(_table(*table) for table in tables),
+        'TABLES': '\n'.join(fact_table(*table) for table in tables),
         'FIGURES': figures_json(figures),
         'PLOTLY': plotly_script(),
-        'SCRIPT': _asset('draw.js'),
+        'SCRIPT': asset('draw.js'),
     }
     # Split once: what is put in is never searched for further marks.
-    pieces = _asset('page.html').split('@')
+    pieces = asset('page.html').split('@')
     return ''.join(parts.get(piece, piece) if k % 2 else piece for k, piece in enumerate(pieces))
 
 
@@ -111,8 +111,8 @@ def plotly_script() -> str:
     return get_plotlyjs()
 
 
-def _asset(name: str) -> str:
-    """Return a file of the page."""
+def asset(name: str) -> str:
+    """Return a file of the room's assets: a template, a style or a script."""
     files = resources.files('hydra_actuator.analysis')
     return (files / 'assets' / name).read_text(encoding='utf-8')
 
@@ -131,7 +131,7 @@ def _place(figure: Figure) -> str:
     )
 
 
-def _table(title: str, note: str, rows: list[tuple[str, str]]) -> str:
+def fact_table(title: str, note: str, rows: list[tuple[str, str]]) -> str:
     """Return a table of two columns, or its note alone if there are no rows."""
     body = ''.join(
         f'<tr><th scope="row">{html.escape(what)}</th><td>{html.escape(value)}</td></tr>'

@@ -13,6 +13,7 @@ from hydra_actuator.analysis import boiling, streamline
 from hydra_actuator.analysis.figure import MEGAPASCAL, MILLI
 from hydra_actuator.analysis.palette import BLUE, INK, ORANGE, VELOCITY_STOPS, VERMILION
 from hydra_actuator.analysis.series import Field, Series
+from hydra_actuator.analysis.surface import shaded, with_walls
 from hydra_actuator.analysis.window import best_field, wave_window, Window, window_of
 from hydra_actuator.errors import InputError
 import numpy as np
@@ -21,7 +22,6 @@ SIZE = (13.0, 5.0)      # [inch]
 DOTS_PER_INCH = 160
 MAP_PLACE = (0.485, 0.125, 0.22, 0.63)     # left, bottom, width, height
 COLUMNS, FRAMES = 360, 240
-WALL_CELLS = 12         # of the surface where the pressure jumps between two domains
 COLOURS = 'cividis'
 LEGEND = {'frameon': False, 'ncols': 2, 'fontsize': 8, 'loc': 'lower right',
           'bbox_to_anchor': (1.0, 0.97), 'borderpad': 0}
@@ -90,11 +90,12 @@ def _frames(series: Series, field: Field, shown: Window) -> tuple:
 def _draw_surface(figure, series: Series, field: Field, shown: Window) -> None:
     """Draw the pressure over streamline and time as a surface."""
     time, x, pressure = _frames(series, field, shown)
-    x, pressure = _with_walls(x, pressure)
+    x, pressure = with_walls(x, pressure)
     axes = figure.add_axes((-0.015, -0.03, 0.45, 1.08), projection='3d', computed_zorder=False)
     axes.plot_surface(
-        x, np.tile(time[:, None], (1, x.shape[1])), pressure, facecolors=_shaded(pressure),
-        shade=False, rcount=FRAMES, ccount=FRAMES, linewidth=0, antialiased=False,
+        x, np.tile(time[:, None], (1, x.shape[1])), pressure,
+        facecolors=shaded(pressure, COLOURS, _limits(pressure)), shade=False, rcount=FRAMES,
+        ccount=FRAMES, linewidth=0, antialiased=False,
     )
     ends = streamline.boundaries(field)
     axes.set_xticks([place for place, _ in ends], [letters for _, letters in ends])
@@ -106,30 +107,6 @@ def _draw_surface(figure, series: Series, field: Field, shown: Window) -> None:
     axes.view_init(elev=28, azim=-58)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.pane.set_visible(False)
-
-
-def _with_walls(x: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return frames in which a jump between two domains is a wall of several cells."""
-    jumps = np.flatnonzero(np.all(np.diff(x, axis=1) < 1e-9, axis=0))
-    parts = np.linspace(0, 1, WALL_CELLS + 1)[1:-1]
-    places = np.repeat(jumps + 1, len(parts))
-    inner = [(1 - w) * pressure[:, k] + w * pressure[:, k + 1] for k in jumps for w in parts]
-    if not inner:
-        return x, pressure
-    return (np.insert(x, places, x[:, places], axis=1),
-            np.insert(pressure, places, np.stack(inner, axis=1), axis=1))
-
-
-def _shaded(pressure: np.ndarray) -> np.ndarray:
-    """Return the colours of a surface, shaded by its slope so that waves show on a plateau."""
-    from matplotlib import colormaps
-    from matplotlib.colors import LightSource, Normalize
-
-    source = LightSource(azdeg=250, altdeg=50)
-    return source.shade(
-        pressure, colormaps[COLOURS], norm=Normalize(*_limits(pressure)), vert_exag=0.6,
-        blend_mode='soft', fraction=0.7,
-    )
 
 
 def _draw_map(figure, series: Series, field: Field, shown: Window) -> None:

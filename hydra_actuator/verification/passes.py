@@ -13,6 +13,7 @@ from functools import cache
 import math
 
 from hydra_actuator.actuator import Actuator, SolverError
+from hydra_actuator.parameters import Parameters
 from hydra_actuator.verification.case import Case, Row
 from hydra_actuator.verification.drawing import bar, MILLI, SERIES
 from hydra_actuator.verification.spool_response import paper_parameters
@@ -22,6 +23,19 @@ STEPS_BETWEEN = 72
 # Frequency [Hz], amplitude of the spool's stroke, periods.
 SINES = ((16.25, 1.0, 2), (50.0, 1.0, 5), (200.0, 0.3, 10))
 LIMIT, SHARE_LIMIT = 1e-4, 3e-3
+
+
+def velocity_unit(parameters: Parameters) -> float:
+    """Return the paper's unit of velocity, V_max [m/s]: the pump's flow in the supply line."""
+    area = 0.25 * math.pi * parameters['supply_line.diameter'] ** 2
+    return parameters['supply.max_flow'] / area
+
+
+def whole_field(actuator: Actuator) -> np.ndarray:
+    """Return pressure [Pa] and velocity [m/s] of all nodes; float32 resolves 1e-7 of the units."""
+    out = np.empty((len(actuator.field_labels), 2), np.float32)
+    actuator.read_field(out)
+    return out.astype(float)
 
 
 def pass_difference(frequency: float, amplitude: float, periods: int) -> tuple[float, ...]:
@@ -39,7 +53,7 @@ def difference_history(frequency: float, amplitude: float,
     Time [s], pressure over p_max, velocity over V_max, the largest velocity itself over V_max.
     """
     p = paper_parameters()
-    velocity_unit = p['supply.max_flow'] / (0.25 * math.pi * p['supply_line.diameter'] ** 2)
+    unit = velocity_unit(p)
     one, two = Actuator(p.replace({'solver.iterations': 1})), Actuator(p)
     history = []
     frames = math.ceil(periods / (frequency * one.step_time * STEPS_BETWEEN))
@@ -52,18 +66,11 @@ def difference_history(frequency: float, amplitude: float,
             code = actuator.follow((times, commands, True), STEPS_BETWEEN)
             if code:
                 raise SolverError(actuator.status_message(code))
-        field = _field(two)
-        worst = np.nanmax(np.abs(field - _field(one)), axis=0)
-        history.append((times[-1], worst[0] / p['supply.pressure'], worst[1] / velocity_unit,
-                        np.nanmax(np.abs(field[:, 1])) / velocity_unit))
+        field = whole_field(two)
+        worst = np.nanmax(np.abs(field - whole_field(one)), axis=0)
+        history.append((times[-1], worst[0] / p['supply.pressure'], worst[1] / unit,
+                        np.nanmax(np.abs(field[:, 1])) / unit))
     return tuple(np.array(history).T)
-
-
-def _field(actuator: Actuator) -> np.ndarray:
-    """Return pressure [Pa] and velocity [m/s] of all nodes; float32 resolves 1e-7 of the units."""
-    out = np.empty((len(actuator.field_labels), 2), np.float32)
-    actuator.read_field(out)
-    return out.astype(float)
 
 
 def passes() -> list[Row]:

@@ -63,7 +63,7 @@ def test_the_page_refers_to_nothing_outside_itself(text):
     assert elements.references == []
     assert "default-src 'none'" in elements.policy
     assert "connect-src 'none'" in elements.policy
-    assert not re.search(r'url\(|@import', pages._asset('style.css'))
+    assert not re.search(r'url\(|@import', pages.asset('style.css'))
 
 
 def test_every_figure_has_its_place_and_its_numbers(text, run):
