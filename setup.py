@@ -19,7 +19,7 @@ setup(
     maintainer='hydra_actuator maintainers',
     maintainer_email='maintainers@example.com',
     packages=find_packages(include=[NAME, f'{NAME}.*']),
-    package_data={NAME: ['analysis/assets/*', 'recording/schemas/**/*']},
+    package_data={NAME: ['analysis/assets/*', 'paper/assets/*', 'recording/schemas/**/*']},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
         (f'share/{NAME}', ['package.xml']),
