@@ -62,9 +62,11 @@ def figure_3c(figure, case: Case) -> str:
 def _strokes(run: Run) -> str:
     """Return the travel of the piston in its first and last period, in words."""
     count = round(1.0 / (run.frequency * run.step_time))
-    spans = [(name, part.min() * 1e3, part.max() * 1e3) for name, part in (
-        ('First', run.position[:count + 1]), ('last', run.position[-count - 1:]))]
-    words = (f'{name} period {low:+.3g} to {high:+.3g} mm' for name, low, high in spans)
+    words = []
+    for name, part in (('First', run.position[:count + 1]), ('last', run.position[-count - 1:])):
+        # Adding 0.0 takes the sign from a zero.
+        low, high = (round(x * 1e3, 2) + 0.0 for x in (part.min(), part.max()))
+        words.append(f'{name} period {low:+.2f} to {high:+.2f} mm')
     return '; '.join(words) + '.'
 
 

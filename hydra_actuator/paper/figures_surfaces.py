@@ -167,7 +167,7 @@ def _draw_change(figure, case: Case, quantity: Quantity) -> str:
     grain = not quantity.velocity and worst < SMALL
     kept = ' Fields are kept to 1e-7 of the unit, seen as grain.' if grain else ''
     return (f'Largest change {worst:.2g} of {quantity.symbol.split("/")[1]} '
-            f'({worst * unit:.2g} {label}), {worst / largest:.2g} of the largest '
+            f'({float(f"{worst * unit:.2g}"):g} {label}), {worst / largest:.2g} of the largest '
             f'{quantity.name} there is; the paper: below 1e-4 of the unit.'
             f'{about_cavities(case)}{kept}')
 
