@@ -6,12 +6,14 @@ A constant load drives a piston from a height h onto its stop, oil all but absen
 takes e of the speed, so it rises to e^2n h, and the energy m v^2/2 + F h never grows.
 """
 
+from functools import cache
 import math
 
 from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.errors import Failure
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.verification.case import Case, Row
+from hydra_actuator.verification.drawing import EXACT_POINT, MILLI, SERIES
 from hydra_actuator.verification.seals import lone_piston
 import numpy as np
 
@@ -21,6 +23,7 @@ LONGEST = 0.5           # s; with e = 1 they take 0.35
 IMPACT = math.sqrt(2.0 * LOAD * HEIGHT / MASS)
 
 
+@cache
 def bounce(restitution: float) -> tuple[np.ndarray, np.ndarray]:
     """
     Return the heights [m] of the rebounds and the energy [J] at every step.
@@ -105,7 +108,29 @@ def short_chambers() -> list[Row]:
     ]
 
 
+def draw_end_stop(figure) -> None:
+    """Draw the heights of the rebounds beside e^2n h, and the energy that is left."""
+    left, right = figure.subplots(1, 2)
+    count = np.arange(1, BOUNCES + 1)
+    for colour, restitution in zip(SERIES, (0.5, 0.8, 1.0)):
+        heights, energy = bounce(restitution)
+        left.semilogy(count, MILLI * restitution ** (2 * count) * HEIGHT,
+                      **{**EXACT_POINT, 'label': '_' if left.lines else 'exact'})
+        left.semilogy(count, MILLI * heights, color=colour, marker='+', markersize=9,
+                      label=f'solver, e = {restitution:g}')
+        right.plot(MILLI * STEP * np.arange(len(energy)), energy, color=colour,
+                   label=f'e = {restitution:g}')
+    left.set_xticks(count)
+    left.set_xlabel('rebound')
+    left.set_ylabel('height [mm]')
+    right.set_xlabel('time [ms]')
+    right.set_ylabel('kinetic and potential energy [J]')
+    for axes in (left, right):
+        axes.grid(True)
+        axes.legend()
+
+
 CASES = {
-    'end_stop': Case(end_stop, 'a piston bounces on its stop'),
+    'end_stop': Case(end_stop, 'a piston bounces on its stop', figure=draw_end_stop),
     'short_chambers': Case(short_chambers, 'chambers of one cell at the stops'),
 }
