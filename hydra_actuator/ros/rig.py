@@ -16,7 +16,6 @@ from hydra_actuator.parameters import Parameters
 from hydra_actuator.recording.messages import parameter_event
 from hydra_actuator.recording.run_data import run_data
 from hydra_actuator.recording.topics import ActuatorTopics
-from hydra_actuator.ros import statuses
 from hydra_actuator.ros.commands import CommandDesk, CommandRules
 from hydra_actuator.ros.diagnostics import Reports
 from hydra_actuator.ros.inbox import Inbox
@@ -27,7 +26,9 @@ from hydra_actuator.ros.recorder import Recorder
 from hydra_actuator.ros.ring import Ring
 from hydra_actuator.ros.scheduling import lock_memory, prepare_thread
 from hydra_actuator.ros.setpoint import Setpoint
-from hydra_actuator.ros.watch import Watch, Watched
+from hydra_actuator.ros.statuses import Status
+from hydra_actuator.ros.vitals import Vitals
+from hydra_actuator.ros.watch import Watch
 from rclpy.node import Node
 
 
@@ -51,8 +52,6 @@ class Rig:
         self._node = node
         self._reports = reports
         self._on_failure = on_failure
-        self._missed, self._rejected = statuses.Recently(), statuses.Recently()
-        self._boiled, self._vacuum = statuses.Recently(), statuses.Recently()
         self.actuator = Actuator(parameters)
         self._build_plant()
         self.topics = ActuatorTopics(
@@ -69,6 +68,9 @@ class Rig:
         except Exception:
             self._disconnect()
             raise
+        self._vitals = Vitals(
+            self.actuator, self.pacer, self.desk, self.setpoint, self._ring, self.recorder,
+            self.setup)
         self._build_outputs()
         reports.keep = self.recorder.put
 
@@ -147,26 +149,13 @@ class Rig:
         self._disconnect()
         return complete
 
-    def oil(self) -> statuses.Status:
+    def oil(self) -> Status:
         """Return whether the oil boils, or would."""
-        actuator = self.actuator
-        cavities = actuator.cavities
-        return statuses.oil(
-            cavities, actuator.vacuum_ticks, self.parameters['fluid.cavitation'],
-            (self._boiled.grew(cavities.opened), self._vacuum.grew(actuator.vacuum_ticks)))
+        return self._vitals.oil(self.parameters)
 
-    def statuses(self) -> list[statuses.Status]:
+    def statuses(self) -> list[Status]:
         """Return what diagnostics say, but for the state of the solver."""
-        return [
-            statuses.real_time(
-                self.pacer, self.actuator.period, self._missed.grew(self.pacer.missed),
-                self.setup),
-            statuses.command(
-                self.desk, self.setpoint, self.parameters['command.on_timeout'],
-                self._rejected.grew(self.desk.rejections)),
-            statuses.recorder(self.recorder),
-            statuses.faults(),
-        ]
+        return self._vitals.statuses(self.parameters)
 
     def _build_plant(self) -> None:
         p, actuator = self.parameters, self.actuator
@@ -190,25 +179,7 @@ class Rig:
         self.outputs.set_rates(self.parameters)
         self.outputs.encoder = self.outputs.encoder_for(_joint_names(self.parameters))
         self.outputs.on_error = lambda error: self._fail(f'publishing: {error!r}')
-        self.outputs.after_batch = Watch(self._reports.event, self._watched()).look
-
-    def _watched(self) -> list[Watched]:
-        """Return the counts that become events."""
-        warn = statuses.WARN
-        return [
-            Watched('Real time', warn, 'ticks missed', lambda: self.pacer.missed),
-            Watched('Real time', warn, 'ticks given up as slip', lambda: self.pacer.slipped),
-            Watched('Real time', warn, 'ticks not published', lambda: self._ring.lost),
-            Watched('Command', warn, 'messages dropped', lambda: self.desk.rejections),
-            Watched('Command', warn, 'silence', lambda: self.setpoint.timeouts),
-            Watched('Solver', warn, 'end stop hit', lambda: self.actuator.stop_hits),
-            Watched('Solver', warn, 'cavity opened', lambda: self.actuator.cavities.opened),
-            Watched('Solver', statuses.OK, 'cavity collapsed',
-                    lambda: self.actuator.cavities.collapsed),
-            Watched('Solver', warn, statuses.VACUUM, lambda: self.actuator.vacuum_ticks),
-            Watched('Recorder', statuses.ERROR, 'recording broke off',
-                    lambda: int(bool(self.recorder.error))),
-        ]
+        self.outputs.after_batch = Watch(self._reports.event, self._vitals.watched()).look
 
     def _open_recording(self) -> None:
         self.recorder = Recorder(

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a rig says of itself: the statuses of diagnostics, and the counts that become events."""
+
+from collections.abc import Mapping
+
+from hydra_actuator.actuator import Actuator
+from hydra_actuator.pacer import Pacer
+from hydra_actuator.parameters import Parameters
+from hydra_actuator.ros import statuses
+from hydra_actuator.ros.commands import CommandDesk
+from hydra_actuator.ros.recorder import Recorder
+from hydra_actuator.ros.ring import Ring
+from hydra_actuator.ros.setpoint import Setpoint
+from hydra_actuator.ros.watch import Watched
+
+
+class Vitals:
+    """
+    Reads the parts of a rig, and remembers what has happened of late.
+
+    setup: what scheduling was asked for and had, filled as it is known.
+    """
+
+    def __init__(
+        self, actuator: Actuator, pacer: Pacer, desk: CommandDesk, setpoint: Setpoint, ring: Ring,
+        recorder: Recorder, setup: Mapping[str, str],
+    ):
+        self._actuator = actuator
+        self._pacer = pacer
+        self._desk = desk
+        self._setpoint = setpoint
+        self._ring = ring
+        self._recorder = recorder
+        self._setup = setup
+        self._missed, self._rejected = statuses.Recently(), statuses.Recently()
+        self._boiled, self._vacuum = statuses.Recently(), statuses.Recently()
+
+    def oil(self, parameters: Parameters) -> statuses.Status:
+        """Return whether the oil boils, or would."""
+        actuator = self._actuator
+        cavities = actuator.cavities
+        return statuses.oil(
+            cavities, actuator.vacuum_ticks, parameters['fluid.cavitation'],
+            (self._boiled.grew(cavities.opened), self._vacuum.grew(actuator.vacuum_ticks)))
+
+    def statuses(self, parameters: Parameters) -> list[statuses.Status]:
+        """Return what diagnostics say, but for the state of the solver."""
+        return [
+            statuses.real_time(
+                self._pacer, self._actuator.period, self._missed.grew(self._pacer.missed),
+                self._setup),
+            statuses.command(
+                self._desk, self._setpoint, parameters['command.on_timeout'],
+                self._rejected.grew(self._desk.rejections)),
+            statuses.recorder(self._recorder),
+            statuses.faults(),
+        ]
+
+    def watched(self) -> list[Watched]:
+        """Return the counts that become events."""
+        warn = statuses.WARN
+        pacer, actuator = self._pacer, self._actuator
+        return [
+            Watched('Real time', warn, 'ticks missed', lambda: pacer.missed),
+            Watched('Real time', warn, 'ticks given up as slip', lambda: pacer.slipped),
+            Watched('Real time', warn, 'ticks not published', lambda: self._ring.lost),
+            Watched('Command', warn, 'messages dropped', lambda: self._desk.rejections),
+            Watched('Command', warn, 'silence', lambda: self._setpoint.timeouts),
+            Watched('Solver', warn, 'end stop hit', lambda: actuator.stop_hits),
+            Watched('Solver', warn, 'cavity opened', lambda: actuator.cavities.opened),
+            Watched('Solver', statuses.OK, 'cavity collapsed',
+                    lambda: actuator.cavities.collapsed),
+            Watched('Solver', warn, statuses.VACUUM, lambda: actuator.vacuum_ticks),
+            Watched('Recorder', statuses.ERROR, 'recording broke off',
+                    lambda: int(bool(self._recorder.error))),
+        ]
