@@ -44,7 +44,9 @@ def test_streamline_of_the_paper_gives_its_wave_time():
     assert (lines + chambers) / wave_speed == pytest.approx(1 / 650, rel=1e-9)
 
 
-@pytest.mark.parametrize('path', sorted(CONFIG.glob('*.yaml')), ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    'path', sorted(set(CONFIG.glob('*.yaml')) - {CONFIG / 'controllers.yaml'}),
+    ids=lambda path: path.name)
 def test_comment_of_every_value_is_the_meaning_in_the_table(path):
     text = path.read_text()
     for name in read_parameter_file(path):
