@@ -6,18 +6,26 @@ Nothing in the method enforces conservation: it solves the Riemann form. Sums ov
 weights of sixth order, so that they do not hide or add to the method's own error.
 
     rho (e + u^2/2),  e = (chi/rho0)(ln r + 1/r - 1),  r = rho/rho0
+
+Gas of volume V in a cell keeps oil out of it, counted from its volume at ambient pressure:
+
+    integral of rho dV  [kg],  integral of p (1 + p/2 chi) dV  [J],  p = K/V - floor
 """
 
+from dataclasses import replace
 from functools import cache
 
+from hydra_actuator.core.boiling import gas_volumes, half_a_cell
 from hydra_actuator.core.model import Domain, Junction, set_domain
 from hydra_actuator.core.records import CLOSED
 from hydra_actuator.verification.case import Case, Row
 from hydra_actuator.verification.chains import (
     BULK_MODULUS,
     DENSITY,
+    GASSY,
     LoneChain,
     mesh_of,
+    OIL,
     riemann_variable,
     WAVE_SPEED,
 )
@@ -28,10 +36,16 @@ LENGTH = 2.0
 AREA = 2e-4
 MEAN = 10e6
 COURANT = 1.0 / 1.025
+FAINT = 0.01e6          # [Pa] of a wave that hardly steepens in 10 s
 DRIFT_BAR = 1e-9        # of the mass, while the wave is smooth
 # mass that fronts add, over the energy they lose: see closed_line
 FRONT_GAIN = 0.5 * ((2.0 * COURANT - 1.0) / (COURANT * (1.0 - COURANT)) - 1.0)
 PARTS = 100             # of a closed line's run, with a weighing after each
+# kinds of oil and of wall friction a closed line must keep its mass with
+OILS = {
+    'free gas': (GASSY, 'none'),
+    'unsteady friction': (replace(OIL, kinematic_viscosity=46e-6), 'unsteady'),
+}
 # what the trapezoid lacks at each end, in the end's differences of first to fourth order (Gregory)
 GREGORY = (1.0 / 12.0, -1.0 / 24.0, 19.0 / 720.0, -3.0 / 160.0)
 
@@ -63,6 +77,23 @@ def stored(chain: LoneChain, density, d: int) -> float:
         density(chain, d), float(chain.model.spacing[d]))
 
 
+def displaced(model, state, d: int) -> tuple[float, float]:
+    """Return mass [kg] and energy [J] of the oil whose place the gas of a domain takes."""
+    if model.end_strength[d] == 0.0:
+        return 0.0, 0.0
+    floor, chi = model.floor, model.bulk_modulus[d]
+    volume = gas_volumes(model, state, d)
+    held = np.full(len(volume), 2.0 * half_a_cell(model, d))
+    held[[0, -1]] *= 0.5
+    before = held / floor
+    swollen, ratio = volume - before, np.log(volume / before)
+    work = held * ratio - floor * swollen
+    square = held ** 2 * (1.0 / before - 1.0 / volume) - 2.0 * floor * held * ratio + (
+        floor ** 2 * swollen)
+    return (float(np.sum(DENSITY * (swollen + work / chi))),
+            float(np.sum(work + square / (2.0 * chi))))
+
+
 def closed_line(duration: float = 10.0) -> list[Row]:
     """
     Let the first mode of a closed line ring for a time [s], small and so large that it steepens.
@@ -84,32 +115,72 @@ def closed_line(duration: float = 10.0) -> list[Row]:
             'closed_line', f'mass drift in {duration:g} s, +-1.5 MPa, {cells} cells', 'of mass',
             FRONT_GAIN * damped, drift, 0.1, True,
             'linear theory of what interpolating a front adds'))
+    for kind in OILS:
+        drift, _ = mass_drift(0.1e6, 100, duration, kind)
+        rows.append(Row(
+            'closed_line', f'mass drift in {duration:g} s, +-0.1 MPa, 100 cells, {kind}',
+            'of mass', 0.0, drift, DRIFT_BAR, False, 'third order: the wave stays smooth'))
+    _, _, damped = drift_history(FAINT, 200, duration)
+    rows.append(Row(
+        'closed_line', f'energy of the wave lost in {duration:g} s, +-0.01 MPa, 200 cells', '-',
+        interpolation_loss(200, duration), float(damped[-1]) / first_energy(FAINT), 0.05, True,
+        'linear theory of cubic interpolation'))
     return rows
 
 
-def mass_drift(amplitude: float, cells: int, duration: float) -> tuple[float, float]:
-    """Return (mass gained, wave energy over c^2 lost) by a closed line; amplitude [Pa]."""
-    _, drift, damped = drift_history(amplitude, cells, duration)
+def interpolation_loss(cells: int, duration: float) -> float:
+    """Return the part of a first mode's energy that cubic interpolation takes in a time [s]."""
+    phase, theta = np.pi / cells, COURANT
+    ahead = -theta * (1 - theta) * (2 - theta) / 6
+    here = (1 - theta) * (1 + theta) * (2 - theta) / 2
+    behind, far = theta * (1 + theta) * (2 - theta) / 2, -theta * (1 - theta) * (1 + theta) / 6
+    gain = abs(ahead * np.exp(1j * phase) + here + behind * np.exp(-1j * phase)
+               + far * np.exp(-2j * phase))
+    steps = duration / mesh_of(LENGTH, cells, COURANT).step_time
+    return float(-np.expm1(2.0 * steps * np.log(gain)))
+
+
+def first_energy(amplitude: float) -> float:
+    """Return `wave_energy` of the first mode of an amplitude [Pa] about MEAN."""
+    velocity = amplitude / (DENSITY * (1.0 + MEAN / BULK_MODULUS) * WAVE_SPEED)
+    return 0.25 * (velocity / WAVE_SPEED) ** 2
+
+
+def mass_drift(amplitude: float, cells: int, duration: float,
+               kind: str = '') -> tuple[float, float]:
+    """
+    Return (mass gained, wave energy over c^2 lost) by a closed line; amplitude [Pa].
+
+    kind: '' for plain oil, or one of OILS.
+    """
+    _, drift, damped = drift_history(amplitude, cells, duration, kind)
     return float(drift[-1]), float(damped[-1])
 
 
 @cache
-def drift_history(amplitude: float, cells: int, duration: float) -> tuple[np.ndarray, ...]:
+def drift_history(amplitude: float, cells: int, duration: float,
+                  kind: str = '') -> tuple[np.ndarray, ...]:
     """Return time [s], mass gained and wave energy over c^2 lost, from first to last."""
     mesh = mesh_of(LENGTH, cells, COURANT)
-    chain = LoneChain([Domain('line', LENGTH, AREA, WAVE_SPEED)],
-                      [Junction(CLOSED, (0,)), Junction(CLOSED, (1,))], mesh)
+    oil, friction = OILS.get(kind, (OIL, 'none'))
+    chain = LoneChain([Domain('line', LENGTH, AREA, WAVE_SPEED, friction=friction)],
+                      [Junction(CLOSED, (0,)), Junction(CLOSED, (1,))], mesh, oil)
     mu = riemann_variable(
         MEAN + amplitude * np.cos(np.pi * chain.positions(0) / LENGTH))
     set_domain(chain.model, chain.state, 0, mu, mu)
-    mass, energy = stored(chain, mass_density, 0), wave_energy(chain)
+    mass, energy = oil_mass(chain), wave_energy(chain)
     ends = np.linspace(0, round(duration / mesh.step_time), PARTS + 1).round().astype(int)
     history = [(0.0, 0.0, 0.0)]
     for steps in np.diff(ends):
         chain.advance(int(steps))
-        history.append((chain.time, stored(chain, mass_density, 0) / mass - 1.0,
+        history.append((chain.time, oil_mass(chain) / mass - 1.0,
                         energy - wave_energy(chain)))
     return tuple(np.array(history).T)
+
+
+def oil_mass(chain: LoneChain) -> float:
+    """Return the mass of the oil [kg] in a lone line."""
+    return stored(chain, mass_density, 0) - displaced(chain.model, chain.state, 0)[0]
 
 
 def wave_energy(chain: LoneChain) -> float:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Figures of mass and energy through two lines and an orifice."""
 
-from hydra_actuator.verification import budget
+from hydra_actuator.verification import budget, whole_budget
 from hydra_actuator.verification.case import illustrated
 from hydra_actuator.verification.drawing import (
     bar,
@@ -106,5 +106,44 @@ def draw_energy_budget(figure) -> None:
         axes.grid(True, axis='y')
 
 
-CASES = illustrated(budget.CASES, mass_balance=draw_mass_balance,
-                    orifice_law=draw_orifice_law, energy_budget=draw_energy_budget)
+def draw_whole_budget(figure) -> None:
+    """Draw where the energy of each drive goes, and what of mass, energy and work is missing."""
+    left, right = figure.subplots(1, 2, width_ratios=(1.6, 1.0))
+    measures = {'mass': 'mass_missing', 'energy': 'energy_missing', 'piston': 'work_missing'}
+    for k, (name, drive) in enumerate(whole_budget.DRIVES.items()):
+        ledger = whole_budget.keep_ledger(name, 200)
+        losses = ledger.losses()
+        place = np.arange(len(losses)) + 0.4 * (k - 0.5)
+        left.barh(place, [max(loss, 1e-3) for loss in losses.values()], height=0.36,
+                  color=SERIES[k], label=f'{name}, {1e3 * (drive.end - drive.begin):.0f} ms')
+        for y, loss in zip(place, losses.values()):
+            left.text(1.15 * max(loss, 1e-3), y, f'{loss:.3g} J', va='center', fontsize=8)
+        left.set_yticks(range(len(losses)), list(losses))
+        bars = (drive.mass_bar, drive.energy_bar, drive.work_bar)
+        for j, (method, tolerance) in enumerate(zip(measures.values(), bars)):
+            at = j + 0.4 * (k - 0.5)
+            for cells, marker in ((100, 'o'), (200, 's')):
+                missing = abs(getattr(whole_budget.keep_ledger(name, cells), method)())
+                right.plot(at, missing, marker, color=SERIES[k], markersize=6,
+                           label=f'{name}, {cells} cells' if j == 0 else '_')
+            right.hlines(tolerance, at - 0.17, at + 0.17, color='#d55e00', linestyle='--',
+                         linewidth=1.2, label='tolerance' if j == k == 0 else '_')
+    left.set_xscale('log')
+    left.set_xlim(1e-3, 1e5)
+    left.invert_yaxis()
+    left.set_xlabel('energy that left the oil [J]')
+    left.legend(loc='lower right')
+    right.set_yscale('log')
+    right.set_ylim(1e-10, 3e-1)
+    right.set_xticks(range(len(measures)), list(measures))
+    right.set_ylabel('not accounted for, of throughput')
+    right.legend(loc='upper right', ncols=2, fontsize=7)
+    for axes in (left, right):
+        axes.grid(True)
+
+
+CASES = {
+    **illustrated(budget.CASES, mass_balance=draw_mass_balance,
+                  orifice_law=draw_orifice_law, energy_budget=draw_energy_budget),
+    **illustrated(whole_budget.CASES, whole_budget=draw_whole_budget),
+}
