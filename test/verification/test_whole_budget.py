@@ -21,7 +21,7 @@ def test_oil_at_rest_weighs_what_its_pressure_says():
     pressure = state.end_star[::2] - model.floor
     volume = model.area * state.length
     full = 860.0 * volume * (1.0 + pressure / model.bulk_modulus)
-    # within what the partial cell at a face may hold; gas counts from ambient pressure on, where it took its air_fraction of the room
+    # within what the partial cell at a face may hold; gas counts from ambient pressure on
     shrunk = 860.0 * volume * parameters['fluid.air_fraction'] * (
         1.0 - model.floor / (pressure + model.floor))
     assert mass == pytest.approx(float((full + shrunk).sum()), rel=2e-5)
