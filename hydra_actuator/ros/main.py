@@ -12,7 +12,7 @@ import threading
 import traceback
 
 from hydra_actuator.errors import InputError
-from hydra_actuator.ros.stopping import signal_within, take_signals
+from hydra_actuator.ros.stopping import end_waiting, take_signals, wait_for_signal
 
 # Time [s] that the serving thread has to end after a signal.
 PATIENCE = 1.6
@@ -45,6 +45,8 @@ class Service:
         except Exception:
             self.crashed = True
             traceback.print_exc()
+        finally:
+            end_waiting()
 
     def _serve(self) -> None:
         from hydra_actuator.ros.node import ActuatorNode
@@ -89,11 +91,9 @@ def main(arguments: list[str]) -> int:
     sys.setswitchinterval(1e-4)
     service = Service(arguments)
     service.thread.start()
-    while service.thread.is_alive():
-        if signal_within(0.2):
-            service.stop()
-            service.thread.join(PATIENCE)
-            break
+    wait_for_signal()
+    service.stop()
+    service.thread.join(PATIENCE)
     if service.thread.is_alive():
         # It compiles, or imports, and cannot be interrupted; nothing is open yet.
         _leave(0)

@@ -8,6 +8,7 @@ a long call, and none that rclpy or numba could replace.
 """
 
 import signal
+import threading
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
@@ -21,6 +22,13 @@ def take_signals() -> None:
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
 
 
-def signal_within(seconds: float) -> bool:
-    """Wait for a signal for at most so long; tell whether one came."""
-    return signal.sigtimedwait(SIGNALS, seconds) is not None
+def wait_for_signal() -> None:
+    """Wait in the main thread for a signal, or for `end_waiting`."""
+    # Not sigtimedwait: stopped and continued past its time limit, Python's returns as if there
+    # had been a signal.
+    signal.sigwait(SIGNALS)
+
+
+def end_waiting() -> None:
+    """End the main thread's wait from another thread, now or as soon as it begins."""
+    signal.pthread_kill(threading.main_thread().ident, signal.SIGTERM)
