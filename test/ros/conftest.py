@@ -33,7 +33,6 @@ def domain(monkeypatch):
             monkeypatch.setenv(name, value)
         for name in set(os.environ) - set(loopback_environment(number)):
             monkeypatch.delenv(name)
-        monkeypatch.setenv('ROS_PYTHON_CHECK_FIELDS', '1')
         monkeypatch.setenv('RCUTILS_COLORIZED_OUTPUT', '0')
         yield number
 
@@ -173,14 +172,14 @@ class Peer:
         while time.monotonic() < end:
             self._executor.spin_once(timeout_sec=0.02)
 
-    def call(self, service_type, name, **fields):
+    def call(self, service_type, name, patience=ANSWER, **fields):
         """Call a service and return its answer."""
         client = self._clients.get(name)
         if client is None:
             client = self._clients[name] = self.node.create_client(service_type, name)
         self.until(client.service_is_ready)
         future = client.call_async(service_type.Request(**fields))
-        self.until(future.done)
+        self.until(future.done, patience)
         return future.result()
 
     def close(self):
