@@ -6,6 +6,7 @@ from hydra_actuator.benchmark import EVERYTHING
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.verification import whole_budget
 from hydra_actuator.verification.case import failures
+from hydra_actuator.verification.weighing import Weigher
 import pytest
 
 
@@ -15,7 +16,7 @@ def test_nothing_is_missing_with_every_option_on():
 
 def test_oil_at_rest_weighs_what_its_pressure_says():
     parameters = Parameters().replace({**EVERYTHING, 'solver.cells': 60})
-    weigher = whole_budget.Weigher(Actuator(parameters))
+    weigher = Weigher(Actuator(parameters))
     mass, energy = weigher.stored()
     model, state = weigher.model, weigher.state
     pressure = state.end_star[::2] - model.floor
