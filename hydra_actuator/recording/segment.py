@@ -81,7 +81,10 @@ class Segment:
         self._compression = '' if compression == 'none' else compression
         self._channels = {topic.name: _Recorded(i + 1) for i, topic in enumerate(topics)}
         self._definitions = _definitions(topics)
-        self._chunk_indexes: list[ChunkIndex] = []
+        self._chunks = 0
+        # As they will stand in the file: as records they would take ten times the memory, for
+        # as long as the recording goes on.
+        self._chunk_indexes = bytearray()
         self._metadata_indexes: list[MetadataIndex] = []
         self._parts: list[bytes] = []
         self._filled = 0
@@ -129,12 +132,13 @@ class Segment:
                            zlib.crc32(content), len(name), name, len(data))
         chunk = b''.join((struct.pack('<BQ', Opcode.CHUNK, len(head) + len(data)), head, data))
         behind, offsets = _message_indexes(indexes, self.size + len(chunk))
-        self._chunk_indexes.append(ChunkIndex(
+        self._chunks += 1
+        self._chunk_indexes += _records([ChunkIndex(
             message_start_time=start, message_end_time=end, chunk_start_offset=self.size,
             chunk_length=len(chunk), message_index_offsets=offsets,
             message_index_length=len(behind), compression=self._compression,
             compressed_size=len(data), uncompressed_size=len(content),
-        ))
+        )])
         self._put(chunk + behind)
         self._empty_chunk()
         self.start_ns = start if self.start_ns is None else min(start, self.start_ns)
@@ -178,17 +182,16 @@ class Segment:
         channels = [record for record in self._definitions if isinstance(record, Channel)]
         statistics = Statistics(
             attachment_count=0, channel_count=len(channels), channel_message_counts=counts,
-            chunk_count=len(self._chunk_indexes), message_count=sum(counts.values()),
+            chunk_count=self._chunks, message_count=sum(counts.values()),
             message_start_time=self.start_ns or 0, message_end_time=self.end_ns or 0,
             metadata_count=len(self._metadata_indexes), schema_count=len(schemas),
         )
         content, offsets = b'', []
-        for group, opcode in (
-            (schemas, Opcode.SCHEMA), (channels, Opcode.CHANNEL),
-            ([statistics], Opcode.STATISTICS), (self._chunk_indexes, Opcode.CHUNK_INDEX),
-            (self._metadata_indexes, Opcode.METADATA_INDEX),
+        for text, opcode in (
+            (_records(schemas), Opcode.SCHEMA), (_records(channels), Opcode.CHANNEL),
+            (_records([statistics]), Opcode.STATISTICS), (self._chunk_indexes, Opcode.CHUNK_INDEX),
+            (_records(self._metadata_indexes), Opcode.METADATA_INDEX),
         ):
-            text = _records(group)
             if text:
                 offsets.append(SummaryOffset(opcode, self.size + len(content), len(text)))
             content += text

@@ -6,8 +6,10 @@ import os
 import signal
 import subprocess
 import sys
+import tracemalloc
 
 from hydra_actuator.recording import messages
+from hydra_actuator.recording.segment import Segment
 from hydra_actuator.recording.topics import ActuatorTopics, Topic
 from hydra_actuator.recording.writer import RecordingError, RecordingFailure, RecordingWriter
 from mcap.reader import make_reader
@@ -19,6 +21,7 @@ from rosbags.rosbag2 import Reader
 from rosbags.typesys import get_typestore, Stores
 import yaml
 
+START = 1_763_877_600_000_000_000
 COMMAND = Topic('/actuator/spool_command', messages.FLOAT64, 'best_effort')
 
 
@@ -267,3 +270,26 @@ def test_a_killed_writer_leaves_all_it_flushed(tmp_path):
     information = yaml.safe_load(text)['rosbag2_bagfile_information']
     assert information['message_count'] == 1000
     assert information['custom_data'] == {'source': 'node'}
+
+
+def test_a_chunk_leaves_only_its_index_in_memory(tmp_path):
+    topics = [Topic(f'/t{number}', messages.FLOAT64) for number in range(20)]
+    batch = [(topic.name, START, START, messages.float64(1.0)) for topic in topics]
+    segment = Segment(tmp_path / 'run_0.mcap', topics, {})
+    chunks, held = 300, []
+    tracemalloc.start()
+    try:
+        for _ in range(3):
+            for _ in range(chunks):
+                segment.write(batch)
+                segment.end_chunk()
+            held.append(tracemalloc.get_traced_memory()[0])
+    finally:
+        tracemalloc.stop()
+        segment.close()
+    # In the file, an index takes 10 bytes for each channel and 77 besides.
+    assert (held[2] - held[0]) / (2 * chunks) < 1.5 * (10 * len(topics) + 77)
+    with open(segment.path, 'rb') as file:
+        indexes = make_reader(file).get_summary().chunk_indexes
+    assert len(indexes) == 3 * chunks
+    assert all(len(index.message_index_offsets) == len(topics) for index in indexes)
