@@ -21,6 +21,7 @@ from typing import NamedTuple, Protocol
 from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.channels import Channels
 from hydra_actuator.errors import InputError
+from hydra_actuator.instruments import Instruments
 from hydra_actuator.interruption import Interruption
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.recording.messages import float64, float64_multi_array
@@ -99,7 +100,7 @@ def simulate(parameters: Parameters | None = None, command: Signal | None = None
         run = _Run(actuator, Hold() if command is None else command, rate)
         steps = math.ceil(duration / actuator.step_time - 1e-6)
         interruption.hold()
-        sink = _Rows() if output is None else _Recording(actuator, output)
+        sink = _Rows() if output is None else _Recording(actuator, run.instruments, output)
         closing.callback(sink.close)
         for step in run.outputs(steps, sink):
             interruption.raise_if_asked()
@@ -122,9 +123,9 @@ class _Due(NamedTuple):
 
 
 class _Sink(Protocol):
-    """Where outputs go; `command` is [spool 1, spool 2, load force] in force."""
+    """Where outputs go: the row as it is read, the command [spool 1, spool 2, load force]."""
 
-    def take(self, due: _Due, actuator: Actuator, command: list[float]) -> None: ...
+    def take(self, due: _Due, reading: list[float], command: list[float]) -> None: ...
     def close(self) -> None: ...
 
 
@@ -134,6 +135,9 @@ class _Run:
     def __init__(self, actuator: Actuator, command: Signal, rate: float | None) -> None:
         p = actuator.parameters
         self._actuator, self._command = actuator, command
+        self.instruments = Instruments(
+            actuator.channels, actuator.step_time, actuator.steps_per_period)
+        self.instruments.set(p, {})
         own = (p['publish.rate'], p['publish.pressure_rate']) if rate is None else (rate, rate)
         rates = (1.0 / actuator.period, *own, p['publish.sections_rate'],
                  p['recording.field_rate'])
@@ -172,19 +176,20 @@ class _Run:
         return commands
 
     def _output(self, step: int, sink: _Sink) -> None:
-        sink.take(_Due(*(clock.due(step) for clock in self._clocks)), self._actuator, self._now)
+        due = _Due(*(clock.due(step) for clock in self._clocks))
+        sink.take(due, self.instruments.read(self._actuator.row.tolist()), self._now)
 
 
 class _Rows:
     """Keeps the states in memory."""
 
     def __init__(self) -> None:
-        self.rows: list[np.ndarray] = []
+        self.rows: list[list[float]] = []
 
-    def take(self, due: _Due, actuator: Actuator, command: list[float]) -> None:
+    def take(self, due: _Due, reading: list[float], command: list[float]) -> None:
         """Keep the row if a state is due."""
         if due.states:
-            self.rows.append(actuator.row.copy())
+            self.rows.append(reading)
 
     def close(self) -> None:
         """Do nothing."""
@@ -193,8 +198,9 @@ class _Rows:
 class _Recording:
     """Writes everything into a recording."""
 
-    def __init__(self, actuator: Actuator, output: str | Path) -> None:
+    def __init__(self, actuator: Actuator, instruments: Instruments, output: str | Path) -> None:
         p, channels = actuator.parameters, actuator.channels
+        self._actuator, self._instruments = actuator, instruments
         topics = ActuatorTopics(NODE, channels.section_names)
         self._topics, self._spools = topics, channels.spools
         self._boils = p['fluid.cavitation']
@@ -211,24 +217,27 @@ class _Recording:
                                        compression=p['recording.compression'])
         self.close = self._writer.close
 
-    def take(self, due: _Due, actuator: Actuator, command: list[float]) -> None:
+    def take(self, due: _Due, reading: list[float], command: list[float]) -> None:
         """Write what is due, and the command if it has changed."""
+        actuator, instruments, topics = self._actuator, self._instruments, self._topics
         time, row = actuator.time, actuator.row.tolist()
         stamp = round(time * 1e9)
         messages: list[tuple[str, bytes]] = []
         if (due.tick or due.states) and command != self._command:
             messages += self._command_messages(actuator.tick, command)
         if due.states:
-            messages.append((self._topics.joint_states, self._tick.joint_state(row, stamp)))
+            messages.append((topics.joint_states, self._tick.joint_state(reading, stamp)))
+            if instruments.acting:
+                messages.append((topics.true_joint_states, self._tick.joint_state(row, stamp)))
         if due.pressures:
-            messages += self._tick.pressures(row, stamp)
+            messages += self._tick.pressures(reading, stamp, instruments.variance)
         if due.sections:
-            messages.append((self._topics.sections, self._tick.sections(row, stamp)))
+            messages.append((topics.sections, self._tick.sections(row, stamp)))
         if due.sections and self._boils:
-            messages.append((self._topics.cavities, self._tick.cavities(row, stamp)))
+            messages.append((topics.cavities, self._tick.cavities(row, stamp)))
         if due.field:
             actuator.read_field(self._field)
-            messages.append((self._topics.field, self._field_encoder.encode(time, self._field)))
+            messages.append((topics.field, self._field_encoder.encode(time, self._field)))
         self._writer.write_batch([(topic, stamp, stamp, data) for topic, data in messages])
 
     def _command_messages(self, tick: int, command: list[float]) -> list[tuple[str, bytes]]:

@@ -31,6 +31,7 @@ ROOMS = {
     'parameters': ({'parameters'}, {'numpy', 'yaml'}),
     'recording': ({'recording', 'hydra_actuator'}, {'numpy', 'mcap', 'lz4', 'zstandard', 'yaml'}),
     'analysis': ({'analysis', 'recording', 'parameters'}, {'numpy', 'plotly', 'matplotlib'}),
+    'instruments': ({'instruments'}, {'numpy'}),
     'pacer': (set(), set()),
     'interruption': (set(), set()),
     'verification': (

@@ -272,3 +272,30 @@ def test_simulate_of_the_package_is_the_function_whatever_was_imported_before(fi
     done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True,
                           check=True, cwd=Path(__file__).parents[1])
     assert done.stdout == 'True\n'
+
+
+SENSOR = {'sensor.position_noise': 1e-5, 'sensor.pressure_noise': 2e4, 'sensor.delay': 3e-3}
+
+
+def test_a_sensor_model_reads_noise_and_leaves_the_truth_beside_it(tmp_path):
+    plain = simulate(QUICK, SINE, 0.02).rows
+    simulate(QUICK.replace(SENSOR), SINE, 0.02, tmp_path / 'run')
+    recording = load_recording(tmp_path / 'run')
+    true = recording.series('/actuator/true_joint_states').numbers().reshape(len(plain), 3, -1)
+    read = recording.series('/joint_states').numbers().reshape(len(plain), 3, -1)
+    assert true[:, 0, 0].tolist() == plain[:, Channels.POSITION].tolist()
+    noise = read[3:, 0, 0] - true[:-3, 0, 0]
+    assert 0.0 < np.abs(noise).max() < 5e-5
+    sections = recording.series('/actuator/sections').numbers()
+    assert sections[:, 1].tolist() == plain[:, Channels(QUICK['sections.names']).pressure][
+        :, 0].tolist()
+    pressure = recording.series('/actuator/pressure/A').numbers()
+    assert set(pressure[:, 1]) == {4e8}
+
+
+def test_readings_do_not_depend_on_the_rate_at_which_they_are_written():
+    parameters = QUICK.replace(SENSOR)
+    slow = simulate(parameters, SINE, 0.02, rate=250.0).rows
+    fast = simulate(parameters, SINE, 0.02, rate=8000.0).rows
+    times = np.isin(fast[:, Channels.TIME], slow[:, Channels.TIME])
+    assert fast[times].tolist() == slow.tolist()

@@ -12,12 +12,6 @@ from hydra_actuator.parameters.definition import ParameterError, Value
 # What is available of each parameter that is restricted.
 AVAILABLE: dict[str, tuple[Value, ...]] = {
     'timing.mode': ('realtime',),
-    'sensor.position_noise': (0.0,),
-    'sensor.velocity_noise': (0.0,),
-    'sensor.pressure_noise': (0.0,),
-    'sensor.position_resolution': (0.0,),
-    'sensor.pressure_resolution': (0.0,),
-    'sensor.delay': (0.0,),
     'fault.enabled': (False,),
     'recording.mode': ('continuous',),
     'recording.split_size': (0,),

@@ -49,6 +49,7 @@ class ActuatorTopics:
         """Take the fully qualified name of the node and its sections."""
         namespace = node.rpartition('/')[0]
         self.joint_states = f'{namespace}/joint_states'
+        self.true_joint_states = f'{node}/true_joint_states'
         self.clock = '/clock'
         self.pressure = {name: f'{node}/pressure/{name}' for name in section_names}
         self.sections = f'{node}/sections'
@@ -67,6 +68,7 @@ class ActuatorTopics:
         """Return the topics of the actuator's state and of what it reports."""
         return [
             Topic(self.joint_states, messages.JOINT_STATE),
+            Topic(self.true_joint_states, messages.JOINT_STATE),
             *(Topic(name, messages.FLUID_PRESSURE) for name in self.pressure.values()),
             Topic(self.sections, messages.FLOAT64_ARRAY),
             Topic(self.cavities, messages.FLOAT64_ARRAY),

@@ -7,11 +7,12 @@ tick goes first: a controller waits for it. The log time of a message is the ins
 state, its publish time the one at which the batch was taken from the ring.
 """
 
+from collections import deque
 from collections.abc import Callable, Iterator, Mapping
 import math
 import time
 
-from hydra_actuator.channels import Channels
+from hydra_actuator.instruments import Instruments
 from hydra_actuator.recording import messages
 from hydra_actuator.recording.tick import AppliedEncoder, FieldEncoder, TickEncoder
 from hydra_actuator.recording.topics import ActuatorTopics
@@ -48,21 +49,27 @@ class Outputs:
     """
 
     def __init__(
-        self, ring: Ring, topics: ActuatorTopics, channels: Channels,
+        self, ring: Ring, topics: ActuatorTopics, instruments: Instruments,
         publishers: Mapping[str, Publish], put_batch: Callable[[list], None],
     ):
+        self.instruments = instruments
         self.on_error: Callable[[BaseException], None] = lambda error: None
         self.after_batch: Callable[[], None] = lambda: None
         self.encoder: TickEncoder | None = None
+        self._coming: deque[tuple[int, tuple]] = deque()
         self._ring = ring
         self._topics = topics
-        self._channels = channels
+        self._channels = channels = instruments.channels
         self._publishers = publishers
         self._put_batch = put_batch
         self._applied = AppliedEncoder(channels.spools)
         self._last_inputs: list[float] | None = None
         self._field: FieldEncoder | None = None
         self._worker = Worker('outputs', self._run)
+
+    def set_instruments(self, number: int, settings: tuple) -> None:
+        """Have rows of that number and later be read as Instruments.set takes it; any thread."""
+        self._coming.append((number, settings))
 
     def encoder_for(self, joint_names: tuple[str, ...]) -> TickEncoder:
         """Return an encoder that names piston and spools so, to be put into `encoder`."""
@@ -124,10 +131,15 @@ class Outputs:
     def _messages(self, tick: Tick) -> Iterator[tuple[str, int, bytes]]:
         """Yield (topic, log time, message) of a tick, each encoded when its turn comes."""
         number, stamp, row, encoder = tick.number, tick.stamp, tick.row, self.encoder
+        self._set_instruments(number)
+        instruments = self.instruments
+        reading = instruments.read(row)
         if self._joint_states.due(number):
-            yield self._topics.joint_states, stamp, encoder.joint_state(row, stamp)
+            yield self._topics.joint_states, stamp, encoder.joint_state(reading, stamp)
+            if instruments.acting:
+                yield self._topics.true_joint_states, stamp, encoder.joint_state(row, stamp)
         if self._pressures.due(number):
-            for topic, data in encoder.pressures(row, stamp):
+            for topic, data in encoder.pressures(reading, stamp, instruments.variance):
                 yield topic, stamp, data
         if self._sections.due(number):
             yield self._topics.sections, stamp, encoder.sections(row, stamp)
@@ -137,6 +149,11 @@ class Outputs:
             yield self._topics.clock, stamp, messages.clock(stamp)
         if tick.inputs != self._last_inputs:
             yield self._encode_inputs(tick)
+
+    def _set_instruments(self, number: int) -> None:
+        """Set the instruments to what holds from this row on."""
+        while self._coming and self._coming[0][0] <= number:
+            self.instruments.set(*self._coming.popleft()[1])
 
     def _encode_inputs(self, tick: Tick) -> tuple[str, int, bytes]:
         """Return what the solver took, at the instant from which it held."""

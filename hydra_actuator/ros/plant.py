@@ -62,6 +62,11 @@ class Plant:
         self._held = (*CENTRED, 0.0)
 
     @property
+    def rows(self) -> int:
+        """How many rows the ring was given: the number of the next one."""
+        return self._rows
+
+    @property
     def running(self) -> bool:
         """Tell whether ticks are under way."""
         return self._worker.running

@@ -28,6 +28,7 @@ class Publishers:
     def create(self, parameters: Parameters, topics: ActuatorTopics) -> None:
         """Create what the parameters want, and write the full names into `topics`."""
         topics.joint_states = self._create(JointState, 'joint_states')
+        topics.true_joint_states = self._create(JointState, '~/true_joint_states')
         topics.sections = self._create(Float64MultiArray, '~/sections')
         if parameters['fluid.cavitation']:
             topics.cavities = self._create(Float64MultiArray, '~/cavities')

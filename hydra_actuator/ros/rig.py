@@ -11,6 +11,7 @@ from collections.abc import Callable
 import time
 
 from hydra_actuator.actuator import Actuator
+from hydra_actuator.instruments import Instruments
 from hydra_actuator.pacer import Pacer
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.recording.messages import parameter_event
@@ -133,6 +134,7 @@ class Rig:
             self.setpoint.set_timeout(new['command.timeout'], new['command.on_timeout'])
             self.outputs.encoder = encoder
             self.plant.supply.pressure = new['supply.pressure']
+            self.outputs.set_instruments(self.plant.rows, (new, {}))
 
         self.plant.order(apply)
         now = time.time_ns()
@@ -173,8 +175,12 @@ class Rig:
         self.plant.on_failure = lambda: self._fail(self.plant.failure)
 
     def _build_outputs(self) -> None:
+        actuator = self.actuator
+        instruments = Instruments(
+            actuator.channels, actuator.step_time, actuator.steps_per_period)
+        instruments.set(self.parameters, {})
         self.outputs = Outputs(
-            self._ring, self.topics, self.actuator.channels, self._publishers.publish,
+            self._ring, self.topics, instruments, self._publishers.publish,
             self.recorder.put_batch)
         self.outputs.set_rates(self.parameters)
         self.outputs.encoder = self.outputs.encoder_for(_joint_names(self.parameters))

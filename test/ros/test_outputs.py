@@ -3,6 +3,7 @@
 
 from hydra_actuator import load_parameters
 from hydra_actuator.channels import Channels
+from hydra_actuator.instruments import Instruments
 from hydra_actuator.recording.messages import decode, FLOAT64_ARRAY, JOINT_STATE
 from hydra_actuator.recording.topics import ActuatorTopics
 from hydra_actuator.ros.outputs import Outputs, Schedule
@@ -31,7 +32,9 @@ class Outlet:
         self.published, self.recorded = [], []
         topics = [*self.topics.pressure.values(), self.topics.joint_states,
                   self.topics.sections, self.topics.applied]
-        self.outputs = Outputs(self.ring, self.topics, self.channels, {
+        instruments = Instruments(self.channels, 1e-3, 1)
+        instruments.set(parameters, {})
+        self.outputs = Outputs(self.ring, self.topics, instruments, {
             topic: lambda data, topic=topic: self.published.append((topic, data))
             for topic in topics}, self.recorded.extend)
         self.outputs.set_rates(parameters)
