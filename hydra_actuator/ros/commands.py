@@ -17,6 +17,8 @@ from hydra_actuator.parameters import Parameters
 Spools = tuple[float, float]
 
 CENTRED: Spools = (0.0, 0.0)
+# A rejection says no more than this of what was in the message [characters].
+_LONGEST = 100
 
 
 class RejectedCommandError(ValueError):
@@ -87,7 +89,7 @@ class CommandDesk:
     def joint_commands(self, names: Sequence[str], positions: Sequence[float]) -> Spools | None:
         """Judge a joint state: spool displacements [m] by the names of the valve's joints."""
         if len(set(names)) != len(names):
-            twice = next(name for name in names if names.count(name) > 1)
+            (twice, _), = Counter(names).most_common(1)
             raise self._reject('duplicate joint name', repr(twice))
         rules = self.rules
         present = [joint for joint in rules.valve_joints if joint in names]
@@ -121,6 +123,10 @@ class CommandDesk:
         """Count a message that cannot even be read, and return its rejection."""
         return self._reject('unreadable', reason)
 
+    def too_large(self, size: int, largest: int) -> RejectedCommandError:
+        """Count a message [byte] that is not read for its size, and return its rejection."""
+        return self._reject('too large', f'{size} bytes, a command has {largest} at most')
+
     def _accept(self, wanted: list[float]) -> Spools:
         """Return finite values clamped to -1..1, the first for both spools if there is one."""
         if not all(map(math.isfinite, wanted)):
@@ -132,5 +138,10 @@ class CommandDesk:
 
     def _reject(self, reason: str, detail: str) -> RejectedCommandError:
         self.rejected[reason] += 1
-        self.last_rejection = f'{reason}: {detail}'
+        self.last_rejection = f'{reason}: {_shortened(detail)}'
         return RejectedCommandError(self.last_rejection)
+
+
+def _shortened(text: str) -> str:
+    """Return a text as one reads it in a log: names may have any length."""
+    return text if len(text) <= _LONGEST else f'{text[:_LONGEST]}... ({len(text)} characters)'

@@ -1,17 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command topics: each message is recorded as it came, judged, held or dropped whole."""
+"""
+The command topics: each message is read, recorded as it came, judged, held or dropped whole.
 
+What no reader could read, or is larger than any command, is not recorded, only counted. Messages
+are read by the package's own CDR: it is strict, bounded by the message's size, three times faster
+than rclpy's, and prints nothing.
+"""
+
+from collections import Counter
 from collections.abc import Callable
 import struct
 
+from hydra_actuator.recording.cdr import CdrError
+from hydra_actuator.recording.messages import decode, FLOAT64_ARRAY, JOINT_STATE
 from hydra_actuator.recording.topics import ActuatorTopics
+from hydra_actuator.ros.commanders import Commanders, publishers_of
 from hydra_actuator.ros.commands import CommandDesk, RejectedCommandError
 from hydra_actuator.ros.reception import Reception
 from hydra_actuator.ros.setpoint import Setpoint
 from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
-from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray
 
@@ -19,18 +28,26 @@ from std_msgs.msg import Float64, Float64MultiArray
 COMMAND_QOS = QoSProfile(
     history=HistoryPolicy.KEEP_LAST, depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
+LOAD = '~/load_force'
+
+# No command is larger [byte]; what is, is not read.
+LARGEST = 64 * 1024
+
 Keep = Callable[[str, int, int, bytes], None]
 
 
 class Inbox:
-    """Receives commands from `start` to `stop`."""
+    """Receives commands from `start` to `stop`; `commanders` knows who sends them."""
 
     def __init__(self, node: Node, desk: CommandDesk, setpoint: Setpoint, keep: Keep):
         """Take where commands are judged, held and recorded."""
         self._logger = node.get_logger()
-        self._desk = desk
+        self.desk = desk
         self._setpoint = setpoint
         self._keep = keep
+        self._names: dict[str, str] = {}
+        self._taken: Counter[str] = Counter()
+        self.commanders = Commanders(self._names, self._taken, LOAD, publishers_of(node))
         self._reception = Reception(node, self._on_error)
         self.start = self._reception.start
         self.stop = self._reception.stop
@@ -38,53 +55,61 @@ class Inbox:
 
     def subscribe(self, topics: ActuatorTopics) -> None:
         """Subscribe, and write the topics' full names, as remapped, into `topics`."""
-        topics.spool_command = self._subscribe(Float64, '~/spool_command', self._spool_command)
-        topics.commands = self._subscribe(Float64MultiArray, '~/commands', self._commands)
-        topics.joint_commands = self._subscribe(
-            JointState, 'joint_commands', self._joint_commands)
-        topics.load_force = self._subscribe(Float64, '~/load_force', self._load_force)
+        subscribe = self._subscribe
+        topics.spool_command = subscribe(
+            Float64, '~/spool_command', self._float64, self._spool_command)
+        topics.commands = subscribe(
+            Float64MultiArray, '~/commands', self._reader(FLOAT64_ARRAY), self._commands)
+        topics.joint_commands = subscribe(
+            JointState, 'joint_commands', self._reader(JOINT_STATE), self._joint_commands)
+        topics.load_force = subscribe(Float64, LOAD, self._float64, self._load_force)
 
-    def _subscribe(self, message_type, topic: str, obey: Callable[[bytes], None]) -> str:
+    def _subscribe(self, message_type, topic: str, read: Callable, obey: Callable) -> str:
         def receive(data: bytes, received: int, sent: int) -> None:
-            self._keep(full_name, received, sent, data)
+            self._taken[topic] += 1
             try:
-                obey(data)
+                if len(data) > LARGEST:
+                    raise self.desk.too_large(len(data), LARGEST)
+                message = read(data)
+                self._keep(full_name, received, sent, data)
+                obey(message)
             except RejectedCommandError as rejection:
                 self._logger.warning(
                     f'{topic}: message dropped: {rejection}', throttle_duration_sec=1.0)
 
-        full_name = self._reception.subscribe(
+        full_name = self._names[topic] = self._reception.subscribe(
             message_type, topic, receive, qos_profile=COMMAND_QOS,
             qos_overriding_options=QoSOverridingOptions.with_default_policies())
         return full_name
 
-    def _spool_command(self, data: bytes) -> None:
-        self._setpoint.accept(self._desk.spool_command(self._float64(data)))
+    def _spool_command(self, value: float) -> None:
+        self._setpoint.accept(self.desk.spool_command(value))
 
-    def _commands(self, data: bytes) -> None:
-        message = self._message(data, Float64MultiArray)
-        self._setpoint.accept(self._desk.commands(message.data.tolist()))
+    def _commands(self, message: dict) -> None:
+        self._setpoint.accept(self.desk.commands(message['data']))
 
-    def _joint_commands(self, data: bytes) -> None:
-        message = self._message(data, JointState)
-        spools = self._desk.joint_commands(message.name, message.position.tolist())
+    def _joint_commands(self, message: dict) -> None:
+        spools = self.desk.joint_commands(message['name'], message['position'])
         if spools is not None:
             self._setpoint.accept(spools)
 
-    def _load_force(self, data: bytes) -> None:
-        self._setpoint.accept_load(self._desk.load_force(self._float64(data)))
+    def _load_force(self, value: float) -> None:
+        self._setpoint.accept_load(self.desk.load_force(value))
 
     def _float64(self, data: bytes) -> float:
-        """Return the value of a Float64: CDR of either byte order."""
-        if len(data) < 12:
-            raise self._desk.unreadable(f'{len(data)} bytes')
-        return struct.unpack_from('<d' if data[1] & 1 else '>d', data, 4)[0]
+        """Return the value of a Float64: plain CDR of either byte order."""
+        if len(data) < 12 or data[0] != 0 or data[1] > 1:
+            raise self.desk.unreadable(f'{len(data)} bytes are no Float64')
+        return struct.unpack_from('<d' if data[1] else '>d', data, 4)[0]
 
-    def _message(self, data: bytes, message_type):
-        try:
-            return deserialize_message(data, message_type)
-        except Exception as error:
-            raise self._desk.unreadable(str(error)) from None
+    def _reader(self, message_type: str) -> Callable[[bytes], dict]:
+        """Return a function that reads a message into a dictionary."""
+        def read(data: bytes) -> dict:
+            try:
+                return decode(message_type, data)
+            except CdrError as error:
+                raise self.desk.unreadable(str(error)) from None
+        return read
 
     def _on_error(self, error: BaseException) -> None:
         self._logger.error(

@@ -70,7 +70,7 @@ class Rig:
             self._disconnect()
             raise
         self._vitals = Vitals(
-            self.actuator, self.pacer, self.desk, self.setpoint, self._ring, self.recorder,
+            self.actuator, self.pacer, self.inbox, self.setpoint, self._ring, self.recorder,
             self.setup)
         self._build_outputs()
         reports.keep = self.recorder.put

@@ -12,6 +12,7 @@ import time
 
 from hydra_actuator.actuator import Cavities
 from hydra_actuator.pacer import Pacer
+from hydra_actuator.ros.commanders import Commanders
 from hydra_actuator.ros.commands import CommandDesk
 from hydra_actuator.ros.recorder import Recorder
 from hydra_actuator.ros.setpoint import Setpoint
@@ -72,9 +73,10 @@ def real_time(
 
 
 def command(
-    desk: CommandDesk, setpoint: Setpoint, on_timeout: str, rejected_recently: bool
+    desk: CommandDesk, setpoint: Setpoint, on_timeout: str, rejected_recently: bool,
+    commanders: Commanders,
 ) -> Status:
-    """Return what became of the command messages."""
+    """Return what became of the command messages, and who sends them."""
     spool_1, spool_2, load_force = setpoint.sample()
     values = {
         'accepted': str(desk.accepted),
@@ -87,8 +89,14 @@ def command(
     }
     values.update(
         {f'rejected: {reason}': str(count) for reason, count in list(desk.rejected.items())})
+    values.update({
+        f'publishers: {topic}': ', '.join(names) for topic, names in commanders.names.items()})
     if rejected_recently:
         return Status('Command', WARN, f'message dropped: {desk.last_rejection}', values)
+    if commanders.rivals:
+        return Status(
+            'Command', WARN, f'several nodes command the valve: {", ".join(commanders.rivals)}',
+            values)
     if setpoint.timed_out:
         return Status(
             'Command', WARN,

@@ -7,7 +7,7 @@ from hydra_actuator.actuator import Actuator
 from hydra_actuator.pacer import Pacer
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.ros import statuses
-from hydra_actuator.ros.commands import CommandDesk
+from hydra_actuator.ros.inbox import Inbox
 from hydra_actuator.ros.recorder import Recorder
 from hydra_actuator.ros.ring import Ring
 from hydra_actuator.ros.setpoint import Setpoint
@@ -22,12 +22,13 @@ class Vitals:
     """
 
     def __init__(
-        self, actuator: Actuator, pacer: Pacer, desk: CommandDesk, setpoint: Setpoint, ring: Ring,
+        self, actuator: Actuator, pacer: Pacer, inbox: Inbox, setpoint: Setpoint, ring: Ring,
         recorder: Recorder, setup: Mapping[str, str],
     ):
         self._actuator = actuator
         self._pacer = pacer
-        self._desk = desk
+        self._desk = inbox.desk
+        self._commanders = inbox.commanders
         self._setpoint = setpoint
         self._ring = ring
         self._recorder = recorder
@@ -45,13 +46,14 @@ class Vitals:
 
     def statuses(self, parameters: Parameters) -> list[statuses.Status]:
         """Return what diagnostics say, but for the state of the solver."""
+        self._commanders.look()
         return [
             statuses.real_time(
                 self._pacer, self._actuator.period, self._missed.grew(self._pacer.missed),
                 self._setup),
             statuses.command(
                 self._desk, self._setpoint, parameters['command.on_timeout'],
-                self._rejected.grew(self._desk.rejections)),
+                self._rejected.grew(self._desk.rejections), self._commanders),
             statuses.recorder(self._recorder),
             statuses.faults(),
         ]

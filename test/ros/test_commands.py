@@ -103,6 +103,15 @@ def test_unusable_joint_command_is_dropped_whole(names, positions, reason):
     assert own.last_rejection.startswith(reason)
 
 
+def test_of_endless_names_a_rejection_keeps_the_beginning():
+    own = desk()
+    names = [f'{number:06}' for number in range(50_000)] + ['n' * 10_000] * 2
+    with pytest.raises(RejectedCommandError):
+        own.joint_commands(names, [0.0] * len(names))
+    assert own.last_rejection.startswith("duplicate joint name: 'nnn")
+    assert len(own.last_rejection) < 200
+
+
 @given(st.lists(st.floats(), max_size=4), st.sampled_from([1, 2]))
 def test_whatever_comes_is_in_range_or_dropped_and_counted_once(values, spools):
     own = desk(spools)

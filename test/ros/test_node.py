@@ -10,9 +10,10 @@ from hydra_actuator.recording.messages import decode, FLOAT64
 import numpy as np
 import pytest
 from rcl_interfaces.srv import SetParametersAtomically
+import rclpy
 from rclpy.parameter import Parameter
 from rclpy.qos import ReliabilityPolicy
-from rclpy.serialization import deserialize_message
+from rclpy.serialization import deserialize_message, serialize_message
 from rosbags.highlevel import AnyReader
 from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64, Float64MultiArray
@@ -136,37 +137,66 @@ def test_bad_commands_are_dropped_whole_counted_and_leave_no_trace(node_process,
     array = peer.publisher(Float64MultiArray, '/actuator/commands')
     joints = peer.publisher(JointState, '/joint_commands')
     load = peer.publisher(Float64, '/actuator/load_force')
-    bad = [
-        (spool, Float64(data=math.nan)), (spool, Float64(data=math.inf)),
-        (array, Float64MultiArray(data=[0.5, 0.5])), (array, Float64MultiArray()),
-        (array, Float64MultiArray(data=[math.nan])),
-        (joints, JointState(name=['valve', 'valve'], position=[1e-4, 1e-4])),
-        (joints, JointState(name=['piston', 'valve'], position=[1e-4])),
-        (load, Float64(data=-math.inf)),
-    ]
+    long_name = 'n' * 10_000
+    bad = {
+        'not finite': [
+            (publisher, message(data=value)) for value in (math.nan, math.inf, -math.inf)
+            for publisher, message in (
+                (spool, Float64), (load, Float64),
+                (array, lambda data: Float64MultiArray(data=[data])))
+        ] + [(joints, JointState(name=['valve'], position=[math.inf]))],
+        'wrong length': [
+            (array, Float64MultiArray()), (array, Float64MultiArray(data=[0.5, 0.5]))],
+        'duplicate joint name': [
+            (joints, JointState(name=['valve', 'valve'], position=[1e-4, 1e-4])),
+            (joints, JointState(name=['valve', '', ''], position=[1e-4, 1e-4, 1e-4])),
+            (joints, JointState(name=[long_name] * 2 + ['valve'], position=[1e-4] * 3))],
+        'index beyond the array': [
+            (joints, JointState(name=['piston', 'valve'], position=[1e-4])),
+            (joints, JointState(name=['valve']))],
+        'unreadable': [
+            (joints, b'\x00\x01\x00\x00' + b'\xff' * 40), (array, bytes(range(200))),
+            (joints, serialize_message(JointState(name=['valve'], position=[1e-4]))[:-40]),
+            (spool, b'\x07' * 12), (load, b'\x00\x01\x00\x00\x01')],
+        'too large': [
+            (array, Float64MultiArray(data=[0.5] * 10_000)),
+            (joints, JointState(name=['valve'], position=[1e-4] * 10_000))],
+    }
     harmless = [
         (joints, JointState(name=['valve'], position=[math.nan])),
         (joints, JointState(name=['piston'], position=[1e-4])),
+        (joints, JointState(name=[long_name, ''], position=[1e-4, 1e-4])),
+        (joints, JointState(position=[1e-4])),
     ]
     # Best effort may lose the first of a publisher, depth 1 keeps the last of a burst only.
     for _ in range(3):
-        for publisher, message in bad + harmless:
+        for publisher, message in [one for group in bad.values() for one in group] + harmless:
             publisher.publish(message)
-            peer.spin(0.05)
-    peer.until(lambda: int(latest(heard, 'Command')[1]['rejected']) >= 2 * len(bad))
+            peer.spin(0.03)
+    peer.send(array, Float64MultiArray(data=[0.5] * 1_000_000),
+              lambda: latest(heard, 'Command')[1]['last_rejection'].startswith('too large: 800'))
+
+    def count(reason):
+        return int(latest(heard, 'Command')[1].get(f'rejected: {reason}', 0))
+    peer.until(lambda: all(count(reason) >= 2 * len(bad[reason]) for reason in bad))
     status, _ = latest(heard, 'Command')
     assert status.level == b'\x01'
     assert 'message dropped' in status.message
     node.end()
+    assert 'Traceback' not in node.text and 'remaining buffer' not in node.text
+    assert max(map(len, node.text.splitlines())) < 400
     recording = load_recording(node.recording)
     taken = sum(
         topic.count for name, topic in recording.topics.items()
         if name.endswith(('command', 'commands', 'load_force')))
     values = last_values(recording, 'Command')
     assert values['accepted'] == values['clamped'] == '0'
-    assert int(values['rejected']) + int(values['without_command']) == taken
-    assert all(int(values[f'rejected: {reason}']) >= 2 for reason in (
-        'not finite', 'wrong length', 'duplicate joint name', 'index beyond the array'))
+    assert {key.removeprefix('rejected: ') for key in values if ': ' in key} - set(bad) == {
+        f'publishers: {topic}'
+        for topic in ('~/spool_command', '~/commands', 'joint_commands', '~/load_force')}
+    # What cannot be read is counted, and not recorded.
+    unread = int(values['rejected: unreadable']) + int(values['rejected: too large'])
+    assert int(values['rejected']) + int(values['without_command']) == taken + unread
     assert len(recording.applied[1]) == 1
     ticks = len(recording.row_stamps) - 1
     undisturbed = replayed(recording, ticks)
@@ -186,15 +216,20 @@ def test_commands_hold_are_clamped_and_recorded_as_they_came(node_process, peer)
     peer.send(array, sent, lambda: applied and applied[-1].data[1] == 0.25)
     full = JointState(name=['valve', 'x'], position=[-1.0])
     peer.send(joints, full, lambda: applied[-1].data[1] == -1.0)
+    # It is the arrival that counts: the sender's stamp may be of any clock.
+    for seconds, spool in ((-1, 0.5), (2**31 - 1, -0.5)):
+        full.header.stamp.sec, full.position = seconds, [5e-4 * spool]
+        peer.send(joints, full, lambda spool=spool: applied[-1].data[1] == spool)
     node.end()
     recording = load_recording(node.recording)
-    assert recording.applied[1][:, 1].tolist() == [0.0, 0.25, -1.0]
+    assert recording.applied[1][:, 1].tolist() == [0.0, 0.25, -1.0, 0.5, -0.5]
     for _, _, data in _raw(node.recording, '/actuator/commands'):
         assert deserialize_message(data, Float64MultiArray) == sent
     values = last_values(recording, 'Command')
-    assert int(values['clamped']) == recording.topics['/joint_commands'].count
-    assert int(values['accepted']) == int(values['clamped']) + recording.topics[
-        '/actuator/commands'].count
+    own = recording.messages('/joint_commands')
+    assert int(values['clamped']) == sum(one['position'] == [-1.0] for one in own)
+    assert int(values['accepted']) == sum(
+        recording.topics[name].count for name in ('/joint_commands', '/actuator/commands'))
 
 
 def _raw(path, topic):
@@ -308,3 +343,28 @@ def test_two_nodes_run_side_by_side_in_their_namespaces(node_process, peer):
     assert '/left/actuator/pressure/A' in load_recording(nodes[0].recording).topics
     received = list(_raw(nodes[0].recording, '/left/actuator/spool_command'))
     assert {decode(FLOAT64, data)['data'] for _, _, data in received} == {1.0}
+
+
+def test_several_nodes_that_command_the_valve_are_named(node_process, peer):
+    node = node_process()
+    heard = peer.hear(DiagnosticArray, '/diagnostics')
+    rival = rclpy.create_node('rival', namespace='/other', context=peer.node.context)
+    spool = peer.publisher(Float64, '/actuator/spool_command')
+    array = rival.create_publisher(Float64MultiArray, '/actuator/commands', 10)
+    peer.send(spool, Float64(data=0.1), lambda: '/peer' in latest(
+        heard, 'Command')[1].get('publishers: ~/spool_command', ''))
+    assert latest(heard, 'Command')[0].message == 'commands are obeyed'
+
+    def told():
+        spool.publish(Float64(data=0.1))
+        status, values = latest(heard, 'Command')
+        return status.message == 'several nodes command the valve: /other/rival, /peer'
+    peer.send(array, Float64MultiArray(data=[0.2]), told)
+    status, values = latest(heard, 'Command')
+    assert status.level == b'\x01'
+    assert values['publishers: ~/commands'] == '/other/rival'
+    # One falls silent: it is over.
+    peer.send(spool, Float64(data=0.1),
+              lambda: latest(heard, 'Command')[0].message == 'commands are obeyed')
+    rival.destroy_node()
+    node.end()
