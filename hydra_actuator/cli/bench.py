@@ -3,12 +3,16 @@
 
 import argparse
 import math
+import os
+from pathlib import Path
 import statistics
+import tempfile
 
 from hydra_actuator.cli.progress import ProgressBar
 from hydra_actuator.errors import InputError
 
 SUMMARY = 'speed of the solver'
+MOST_NODES = 64
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -17,6 +21,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help='ROS parameter file; default: the reference size')
     parser.add_argument('--duration', type=float, default=5.0, metavar='T',
                         help='simulated time to measure over [s] (default 5)')
+    parser.add_argument('--nodes', type=int, metavar='N',
+                        help='how many nodes hold their rate side by side: 1, 2, 4 .. N of them, '
+                             '--duration seconds each, over DDS')
     parser.add_argument('--options', action='store_true',
                         help='what each option of the physics costs, as a ratio in one run')
 
@@ -27,6 +34,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(f'--duration {arguments.duration:g} s is below 0.2 s')
     from hydra_actuator.parameters import load_parameters
     parameters = load_parameters(*arguments.config)
+    if arguments.nodes is not None:
+        return _nodes(arguments)
     if arguments.options:
         return _options(parameters if arguments.config else None, arguments.duration)
     from hydra_actuator.benchmark import measure_speed
@@ -47,6 +56,34 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _row(name: str, times) -> str:
     return f'{name:<24}{times[0]:12.3f}{times[len(times) // 2]:12.3f}{times[-1]:12.3f}'
+
+
+def _nodes(arguments: argparse.Namespace) -> int:
+    """Print the table of what each count of nodes reaches."""
+    from importlib.util import find_spec
+
+    if not 1 <= arguments.nodes <= MOST_NODES:
+        raise InputError(f'--nodes {arguments.nodes}: 1 to {MOST_NODES}')
+    if find_spec('rclpy') is None:
+        raise InputError('rclpy is not installed: source a ROS 2 setup, or make venv')
+    from hydra_actuator.ros.fleet import measure_fleets, MOST_MISSED
+
+    print(f'{len(os.sched_getaffinity(0))} cores, load average {os.getloadavg()[0]:.1f} before; '
+          f'{arguments.duration:g} s each; holds: every node missed fewer than '
+          f'{100.0 * MOST_MISSED:g} % of its ticks')
+    print(f'{"nodes":>5}{"missed, worst":>15}{"real time, least":>18}{"p99 late, worst":>17}'
+          f'{"CPU per node":>14}{"heard, least":>14}', flush=True)
+    with tempfile.TemporaryDirectory() as folder, ProgressBar('bench') as progress:
+        for nodes in measure_fleets(
+            arguments.nodes, arguments.duration, arguments.config, Path(folder), progress
+        ):
+            verdict = 'holds' if all(node.holds for node in nodes) else 'does not hold'
+            print(f'{len(nodes):5}{max(node.missed for node in nodes):15.2%}'
+                  f'{min(node.real_time_factor for node in nodes):18.5f}'
+                  f'{1e6 * max(node.lateness for node in nodes):14.0f} us'
+                  f'{statistics.mean(node.share for node in nodes):14.1%}'
+                  f'{min(node.heard for node in nodes):14.1%}  {verdict}', flush=True)
+    return 0
 
 
 def _options(parameters, duration: float) -> int:
