@@ -15,10 +15,12 @@ from hydra_actuator.pacer import Pacer
 from hydra_actuator.ros.commanders import Commanders
 from hydra_actuator.ros.commands import CommandDesk
 from hydra_actuator.ros.recorder import Recorder
+from hydra_actuator.ros.scheduling import refusals
 from hydra_actuator.ros.setpoint import Setpoint
 
 OK, WARN, ERROR = 0, 1, 2
 RECENT = 2.0
+PERCENTILES = (50.0, 99.0, 99.9)
 VACUUM = 'pressure below vacuum: turn fluid.cavitation on'
 
 
@@ -51,7 +53,11 @@ class Recently:
 def real_time(
     pacer: Pacer, period: float, missed_recently: bool, setup: Mapping[str, str]
 ) -> Status:
-    """Return how well the ticks keep to their grid; durations in microseconds."""
+    """
+    Return how well the ticks keep to their grid; durations in microseconds.
+
+    setup: what scheduling was asked for and had, as `scheduling` tells it.
+    """
     elapsed = pacer.elapsed
     factor = pacer.ticks * period / elapsed if elapsed > 0.0 else 0.0
     values = {
@@ -61,14 +67,17 @@ def real_time(
         'real_time_factor': f'{factor:.6f}',
     }
     for name, histogram in (('lateness', pacer.lateness), ('execution', pacer.execution)):
-        values[f'{name}_p50'] = f'{histogram.percentile(50.0) / 1e3:.1f}'
-        values[f'{name}_p99'] = f'{histogram.percentile(99.0) / 1e3:.1f}'
+        for percent in PERCENTILES:
+            values[f'{name}_p{percent:g}'] = f'{histogram.percentile(percent) / 1e3:.1f}'
         values[f'{name}_max'] = f'{histogram.maximum / 1e3:.1f}'
     values.update(setup)
     if pacer.halted:
         return Status('Real time', ERROR, 'halted after a missed tick', values)
     if missed_recently:
         return Status('Real time', WARN, f'{pacer.missed} ticks missed in all', values)
+    refused = refusals(setup)
+    if refused:
+        return Status('Real time', WARN, '; '.join(['on time', *refused]), values)
     return Status('Real time', OK, 'on time', values)
 
 
