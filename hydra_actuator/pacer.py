@@ -181,6 +181,11 @@ class Pacer:
     def _late(self, index: int, now: int) -> int:
         """Count the grid instants that passed; return the grid index to go on with."""
         behind = math.ceil((now - self._instant(index)) / self._period_ns)
+        # Instants are whole nanoseconds, so the quotient may be one off.
+        if self._instant(index + behind) < now:
+            behind += 1
+        elif behind > 1 and self._instant(index + behind - 1) >= now:
+            behind -= 1
         passed = index + behind - 1
         self.missed += max(0, passed - max(self._passed, index - 1))
         self._passed = max(self._passed, passed)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The pacer's grid, counts and statistics, on a clock that is told what time it is."""
 
+import math
+
 from hydra_actuator.pacer import DurationHistogram, Pacer
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -160,6 +162,64 @@ def test_grid_index_is_ticks_plus_slip_whatever_happens(policy, max_burst, work)
         assert begun <= time.now
     pacer.wait()
     assert pacer.missed == len(passed)
+
+
+@settings(deadline=None, max_examples=200)
+@given(
+    policy=st.sampled_from(['burst', 'slip', 'halt']),
+    max_burst=st.integers(1, 20),
+    period_ns=st.floats(1e3, 1e8),
+    before=st.integers(0, 5),
+    lateness=st.floats(0.0, 200.0) | st.integers(0, 200),
+    nudge=st.integers(-2, 2),
+)
+def test_missed_is_lateness_over_period_rounded_up_for_any_period(
+        policy, max_burst, period_ns, before, lateness, nudge):
+    time, pacer = paced(policy, max_burst, period_ns / 1e9)
+    origin = time.now
+    period_ns = period_ns / 1e9 * 1e9
+
+    def instant(index):
+        return origin + round(index * period_ns)
+    # A tick somewhere on the grid, and a loop that comes back so many periods after the next.
+    index = 0
+    for _ in range(before):
+        index = pacer.wait()
+    time.now = max(time.now, instant(index + 1) + round(lateness * period_ns) + nudge)
+    late = time.now - instant(index + 1)
+    passed = sum(1 for k in range(int(lateness) + 3) if instant(index + 1 + k) < time.now)
+    next_index = pacer.wait()
+    assert pacer.missed == passed
+    # Rounded to whole nanoseconds, an instant is half a one off at most.
+    assert math.floor((late - 1) / period_ns) <= passed <= math.ceil((late + 1) / period_ns)
+    if next_index is not None:
+        assert time.now >= instant(next_index)
+        assert next_index == pacer.ticks + pacer.slipped
+        if policy == 'slip' and passed:
+            assert next_index == index + 1 + passed
+
+
+@pytest.mark.parametrize('policy, period', [('slip', 1e-3), ('burst', 1.0 / 3000.0)])
+def test_a_minute_drifts_by_less_than_a_tick(policy, period):
+    time, pacer = paced(policy, period=period)
+    origin, random = time.now, np.random.default_rng(5)
+    # Mostly in time, sometimes late, seldom very late; the sleep is late as well.
+    work = random.choice([0.3, 1.5, 40.0], p=[0.97, 0.025, 0.005], size=200_000) * period * 1e9
+    oversleep = random.choice([0.02, 0.9], size=work.size) * period * 1e9
+    for spent, over in zip(work.astype(int).tolist(), oversleep.astype(int).tolist()):
+        pacer.wait()
+        time.now += spent
+        time.oversleep = over
+        if time.now - origin > 60_000 * MS:
+            break
+    assert time.now - origin > 60_000 * MS
+    # Time to catch up.
+    time.oversleep = 0
+    for _ in range(50):
+        pacer.wait()
+    drift = pacer.elapsed - pacer.ticks * period - pacer.slip
+    assert pacer.slipped > 0
+    assert 0.0 <= drift + 1e-9 < period + 1e-9
 
 
 def test_figures_go_on_over_a_second_run():
