@@ -21,7 +21,8 @@ _ROUGHEST = 0.05
 
 def refuse_contradictions(values: Mapping[str, Value]) -> None:
     """Raise ParameterError on the first contradiction between complete, singly valid values."""
-    for check in (_fluid, _supply, _lines, _valve, _cylinder, _initial, _sections, _joints):
+    for check in (_fluid, _supply, _lines, _valve, _cylinder, _initial, _sections, _joints,
+                  _timing):
         for contradiction in check(values):
             raise ParameterError(contradiction)
 
@@ -130,3 +131,14 @@ def _joints(values: Mapping[str, Value]) -> Iterator[str]:
         yield _pair(
             values, 'command.piston_joint', 'is the name of the spool by', 'command.valve_joint'
         )
+
+
+def _timing(values: Mapping[str, Value]) -> Iterator[str]:
+    mode = values['timing.mode']
+    if mode == 'lockstep':
+        periods = values['timing.lockstep_period'] / values['timing.period']
+        if round(periods) < 1 or abs(periods - round(periods)) > 1e-9 * periods:
+            yield _pair(
+                values, 'timing.lockstep_period', 'must be a whole multiple of', 'timing.period')
+    if mode == 'follow_clock' and values['publish.clock']:
+        yield 'publish.clock = true must be false with timing.mode = follow_clock: one gives time'

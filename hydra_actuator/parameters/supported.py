@@ -11,7 +11,6 @@ from hydra_actuator.parameters.definition import ParameterError, Value
 
 # What is available of each parameter that is restricted.
 AVAILABLE: dict[str, tuple[Value, ...]] = {
-    'timing.mode': ('realtime',),
     'fault.enabled': (False,),
     'recording.mode': ('continuous',),
     'recording.split_size': (0,),

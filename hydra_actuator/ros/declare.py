@@ -40,6 +40,7 @@ TYPES = {
     'string_array': RosParameter.Type.STRING_ARRAY,
 }
 SIMULATED_TIME = 'use_sim_time'
+MODE = 'timing.mode'
 _FOLLOW_CLOCK = (
     'use_sim_time = true is refused in timing.mode realtime, which gives time and does not '
     'take it; follow_clock is the mode that follows /clock')
@@ -143,7 +144,7 @@ class ParameterDoor:
         table = definitions(sections)
         for name, definition in table.items():
             self._declare(definition, overrides.pop(name, definition.default))
-        if overrides.get(SIMULATED_TIME):
+        if self._simulated_realtime({}):
             self.refusals[SIMULATED_TIME] = _FOLLOW_CLOCK
         for name in overrides:
             if not belongs_to_ros(name):
@@ -182,7 +183,7 @@ class ParameterDoor:
 
     def _objection(self, changes: dict[str, object]) -> str:
         """Return why changes cannot be made together now, '' if they can."""
-        if changes.get(SIMULATED_TIME):
+        if changes.keys() & {SIMULATED_TIME, MODE} and self._simulated_realtime(changes):
             return _FOLLOW_CLOCK
         own = {name: value for name, value in changes.items() if not belongs_to_ros(name)}
         table = self.table
@@ -195,6 +196,13 @@ class ParameterDoor:
         if own and self._sound():
             self._with(own)
         return ''
+
+    def _simulated_realtime(self, changes: Mapping[str, object]) -> bool:
+        """Tell whether, with changes, real time would have to be taken from /clock."""
+        simulated, mode = (
+            changes[name] if name in changes else self._value(name)
+            for name in (SIMULATED_TIME, MODE))
+        return bool(simulated) and mode == 'realtime'
 
     def _sound(self) -> bool:
         """Tell whether the parameters fit together now; if not, configuring will say so."""
@@ -213,6 +221,8 @@ class ParameterDoor:
     def _tell(self, changes: list[RosParameter]) -> None:
         for change in changes:
             self.refusals.pop(change.name, None)
+        if not self._simulated_realtime({}):
+            self.refusals.pop(SIMULATED_TIME, None)
         own = {change.name: plain(change) for change in changes if change.name in self.table}
         if 'sections.names' in own:
             self._declare_sections()

@@ -27,6 +27,7 @@ class Reports:
 
     def __init__(self, node: Node):
         self.keep: Keep = lambda *message: None
+        self.log_time: Callable[[int], int] = lambda system_time: system_time
         self._prefix = node.get_fully_qualified_name()
         self._diagnostics = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
         self._events = node.create_publisher(DiagnosticArray, '~/events', 10)
@@ -45,11 +46,12 @@ class Reports:
 
     def _send(self, publisher, statuses: list[Status]) -> None:
         now = time.time_ns()
-        data = diagnostic_array(now, [
+        stamp = self.log_time(now)
+        data = diagnostic_array(stamp, [
             (one.level, f'{self._prefix}: {one.name}', one.message, self._prefix, one.values)
             for one in statuses])
         publisher.publish(data)
-        self.keep(publisher.topic_name, now, now, data)
+        self.keep(publisher.topic_name, stamp, now, data)
 
 
 class DiagnosticsThread:

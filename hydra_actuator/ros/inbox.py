@@ -28,6 +28,10 @@ from std_msgs.msg import Float64, Float64MultiArray
 COMMAND_QOS = QoSProfile(
     history=HistoryPolicy.KEEP_LAST, depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
+# In lockstep each message is a tick, so none may be lost, nor replaced by the next.
+LOCKSTEP_QOS = QoSProfile(
+    history=HistoryPolicy.KEEP_LAST, depth=100, reliability=ReliabilityPolicy.RELIABLE)
+
 LOAD = '~/load_force'
 
 # No command is larger [byte]; what is, is not read.
@@ -39,12 +43,16 @@ Keep = Callable[[str, int, int, bytes], None]
 class Inbox:
     """Receives commands from `start` to `stop`; `commanders` knows who sends them."""
 
-    def __init__(self, node: Node, desk: CommandDesk, setpoint: Setpoint, keep: Keep):
-        """Take where commands are judged, held and recorded."""
+    def __init__(
+        self, node: Node, desk: CommandDesk, setpoint: Setpoint, keep: Keep,
+        qos: QoSProfile = COMMAND_QOS,
+    ):
+        """Take where commands are judged, held and recorded, and how they are received."""
         self._logger = node.get_logger()
         self.desk = desk
         self._setpoint = setpoint
         self._keep = keep
+        self._qos = qos
         self._names: dict[str, str] = {}
         self._taken: Counter[str] = Counter()
         self.commanders = Commanders(self._names, self._taken, LOAD, publishers_of(node))
@@ -78,7 +86,7 @@ class Inbox:
                     f'{topic}: message dropped: {rejection}', throttle_duration_sec=1.0)
 
         full_name = self._names[topic] = self._reception.subscribe(
-            message_type, topic, receive, qos_profile=COMMAND_QOS,
+            message_type, topic, receive, qos_profile=self._qos,
             qos_overriding_options=QoSOverridingOptions.with_default_policies())
         return full_name
 

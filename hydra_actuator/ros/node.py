@@ -90,7 +90,7 @@ class ActuatorNode(LifecycleNode):
         self._active = True
         self.rig.start()
         self._enter('active')
-        period = self.rig.parameters['timing.period']
+        period = self.rig.clock.period
         where = f'recording to {self.rig.recorder.path}' if self.rig.recorder.recording else (
             'not recording')
         self.get_logger().info(f'active: {1.0 / period:.6g} Hz, {where}')
@@ -101,7 +101,7 @@ class ActuatorNode(LifecycleNode):
         """Stop after the tick; after a failure of the solver this is the way to the error."""
         self._active = False
         self.rig.stop()
-        if self.rig.failure and not self.rig.pacer.halted:
+        if self.rig.failure and not self.rig.clock.failure:
             return ERROR
         self._enter('inactive')
         return SUCCESS

@@ -4,7 +4,8 @@ The publishing thread: what the solver put into the ring goes out, and into the 
 
 Each message is encoded once; the same bytes are published and recorded. The joint state of a
 tick goes first: a controller waits for it. The log time of a message is the instant of the
-state, its publish time the one at which the batch was taken from the ring.
+state, its publish time the one at which the batch was taken from the ring. A row that is shown
+again is published only; where simulated time begins anew, so does the recording.
 """
 
 from collections import deque
@@ -55,6 +56,7 @@ class Outputs:
         self.instruments = instruments
         self.on_error: Callable[[BaseException], None] = lambda error: None
         self.after_batch: Callable[[], None] = lambda: None
+        self.on_restart: Callable[[], None] = lambda: None
         self.encoder: TickEncoder | None = None
         self._coming: deque[tuple[int, tuple]] = deque()
         self._ring = ring
@@ -64,6 +66,7 @@ class Outputs:
         self._put_batch = put_batch
         self._applied = AppliedEncoder(channels.spools)
         self._last_inputs: list[float] | None = None
+        self._last_number: int | None = None
         self._field: FieldEncoder | None = None
         self._worker = Worker('outputs', self._run)
 
@@ -75,14 +78,21 @@ class Outputs:
         """Return an encoder that names piston and spools so, to be put into `encoder`."""
         return TickEncoder(self._channels, joint_names, self._topics)
 
-    def set_rates(self, parameters: Mapping[str, float]) -> None:
-        """Take the rates of publishing, and whether there are cavities, from parameters."""
-        period = parameters['timing.period']
+    def set_rates(
+        self, parameters: Mapping[str, float], period: float, every_tick: bool = False
+    ) -> None:
+        """
+        Take the rates of publishing, and whether there are cavities, from parameters.
+
+        period [s]: of a tick; every_tick: joint states and /clock go out with each.
+        """
         self._joint_states, self._pressures, self._sections = (
             Schedule(parameters[f'publish.{rate}'], period)
             for rate in ('rate', 'pressure_rate', 'sections_rate'))
         clock_rate = parameters['publish.clock_rate'] if parameters['publish.clock'] else 0.0
         self._clock = Schedule(clock_rate, period)
+        if every_tick:
+            self._joint_states = self._clock = Schedule(1.0 / period, period)
         self._period_ns = round(period * 1e9)
         self._boils = parameters['fluid.cavitation']
 
@@ -112,9 +122,11 @@ class Outputs:
         now = time.time_ns()
         recorded = []
         for tick in self._ring.ticks():
+            again = self._note(tick.number)
             for topic, log, data in self._messages(tick):
                 self._publish(topic, data)
-                recorded.append((topic, log, now, data))
+                if not again:
+                    recorded.append((topic, log, now, data))
         for frame in self._ring.frames():
             data = self._encode_frame(frame)
             self._publish(self._topics.field, data)
@@ -122,6 +134,15 @@ class Outputs:
         if recorded:
             self._put_batch(recorded)
         self.after_batch()
+
+    def _note(self, number: int) -> bool:
+        """Tell whether a tick is shown again; begin anew where it is the first once more."""
+        last, self._last_number = self._last_number, number
+        if number == 0 and last:
+            self._set_instruments(last + 1)
+            self.forget_inputs()
+            self.on_restart()
+        return number == last
 
     def _publish(self, topic: str, data: bytes) -> None:
         publish = self._publishers.get(topic)

@@ -1,33 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The actuator on the pacer's grid, in a thread of its own.
+The actuator in a thread of its own, ticking as a clock source says.
 
-A tick: wait for its instant, note the command that holds now, solve the period that ends now
-with the command noted one tick before (causal: what is known at an instant acts from it on), put
-the row into the ring. The thread never publishes, logs or writes. Whatever else happens to the
-plant (reset, a parameter, the supply) is an order, carried out between two ticks.
-
-The stamp of a row is base + (ticks + slipped) * period, with base the system time of the start:
-simulated time plus slip, whatever the clocks do meanwhile.
+A tick: wait for the grant, note the command that holds now, solve the period that ends now with
+the command of the grant, or else the one noted a tick before (causal: what is known at an instant
+acts from it on), put the row into the ring. The thread never publishes, logs or writes. Whatever
+else happens to the plant (a parameter, the supply) is an order, carried out between two ticks.
 """
 
 from collections import deque
 from collections.abc import Callable
 import threading
-import time
 import traceback
 
 from hydra_actuator.actuator import Actuator
-from hydra_actuator.pacer import Pacer
+from hydra_actuator.ros.clocks.source import Act, ClockSource, Grant, Inputs
 from hydra_actuator.ros.commands import CENTRED
 from hydra_actuator.ros.ring import Ring
 from hydra_actuator.ros.setpoint import Setpoint
 from hydra_actuator.ros.supply import Supply
 from hydra_actuator.ros.worker import Worker
 
-_NS = 1_000_000_000
 # Longest wait [s] for an order, beside a period.
 _PATIENCE = 1.0
+# How long [s] a full ring keeps the thread from looking at its orders.
+_LOOK = 0.05
 
 
 class Plant:
@@ -38,9 +35,10 @@ class Plant:
     """
 
     def __init__(
-        self, actuator: Actuator, pacer: Pacer, setpoint: Setpoint, ring: Ring,
+        self, actuator: Actuator, clock: ClockSource, setpoint: Setpoint, ring: Ring,
         field_rate: float = 0.0,
     ):
+        """Take a clock whose period is one of the actuator's, or several."""
         self.failure = ''
         self.on_failure: Callable[[], None] = lambda: None
         self.prepare_thread: Callable[[], None] = lambda: None
@@ -50,14 +48,16 @@ class Plant:
         self.supply = Supply(
             parameters['supply.pressure'], parameters['tank.pressure'], actuator.period)
         self._actuator = actuator
-        self._pacer = pacer
+        self._clock = clock
         self._setpoint = setpoint
         self._ring = ring
-        self._period_ns = actuator.period * _NS
-        self._frames_per_tick = min(1.0, field_rate * actuator.period)
+        self._periods = round(clock.period / actuator.period)
+        self._frames_per_tick = min(1.0, field_rate * clock.period)
         self._orders: deque[Callable[[], None]] = deque()
+        self._was_reset = threading.Event()
         self._worker = Worker('solver', self._run)
-        self._base = self._stamp = 0
+        self._acts = {Act.SOLVE: self._solve, Act.RESET: self._reset, Act.REPEAT: self._repeat}
+        self._stamp = 0
         self._rows = 0
         self._held = (*CENTRED, 0.0)
 
@@ -79,12 +79,12 @@ class Plant:
 
     def stop(self) -> None:
         """Stop after the tick under way; the state stays."""
-        self._worker.stop()
+        self._worker.stop(self._clock.wake)
         self._follow_orders()
 
     def step(self) -> bool:
-        """Run one period while stopped, stamped one period after the last; False if it fails."""
-        return self._solve(self._stamp + round(self._period_ns))
+        """Run one tick out of turn while stopped; False if it fails."""
+        return self._perform(self._clock.out_of_turn(self._stamp))
 
     def order(self, action: Callable[[], None]) -> bool:
         """Have something done between two ticks and wait for it; False if it was not done."""
@@ -97,15 +97,21 @@ class Plant:
             action()
             done.set()
         self._orders.append(obey)
-        return done.wait(_PATIENCE + self._actuator.period)
+        self._clock.wake()
+        return done.wait(_PATIENCE + self._clock.period)
 
     def reset(self) -> bool:
         """
-        Return to the initial state with command 0, as an order; the load holds.
+        Return to the initial state with command 0; the load holds. False if it was not done.
 
-        While ticking, it takes one tick of the grid, so that stamps go on by one period.
+        In real time it takes one tick of the grid, so that stamps go on by one period; simulated
+        time begins anew.
         """
-        return self.order(self._reset)
+        self._was_reset.clear()
+        self._clock.restart()
+        if not self.running:
+            return self.step()
+        return self._was_reset.wait(_PATIENCE + self._clock.period)
 
     def set_enabled(self, enabled: bool) -> bool:
         """Switch valve command and supply on, or centre the valve and turn the supply off."""
@@ -119,52 +125,74 @@ class Plant:
         """Tick until stopped or failed; the thread's whole life."""
         try:
             self.prepare_thread()
-            self._pacer.start()
-            self._base = max(time.time_ns(), self._stamp)
-            if not self._rows:
-                self._push(self._base)
+            stamp = self._clock.start(self._stamp)
+            if stamp is not None and not self._rows:
+                self._push(stamp)
             self._tick_until_stopped()
         except Exception:
             self.failure = 'solver thread: ' + traceback.format_exc()
         finally:
-            self._pacer.stop()
+            self._clock.stop()
         if self.failure:
             self.on_failure()
 
     def _tick_until_stopped(self) -> None:
-        while not self._worker.stopping:
-            index = self._pacer.wait()
-            if index is None:
-                self.failure = 'a tick was missed, and timing.overrun_policy is halt'
-                return
-            stamp = self._base + round(index * self._period_ns)
-            resets = self.resets
+        while not self._worker.stopping and not self.failure:
             self._follow_orders()
-            if self.resets != resets:
-                self._push(stamp)
-            elif not self._solve(stamp):
-                return
+            if self._clock.simulated and not self._ring.has_room(_LOOK):
+                continue
+            grant = self._clock.wait()
+            if grant is not None:
+                self._perform(grant)
+            self.failure = self.failure or self._clock.failure
 
-    def _solve(self, stamp: int) -> bool:
-        """Solve one period with the inputs held, note those of now; False if it failed."""
-        actuator = self._actuator
-        noted = self._inputs()
-        pressure = self.supply.tick()
-        if pressure is not None:
-            actuator.set_supply_pressure(pressure)
-        tick, held = actuator.tick, self._held
-        code = actuator.tick_once(*held)
-        if code:
-            self.failure = actuator.status_message(code)
-            return False
+    def _perform(self, grant: Grant) -> bool:
+        """Do what a grant says; False if it failed."""
+        return self._acts[grant.act](grant)
+
+    def _solve(self, grant: Grant) -> bool:
+        """Solve one tick with its inputs or those held, note those of now."""
+        actuator, noted = self._actuator, self._inputs()
+        held = self._held if grant.inputs is None else self._allowed(grant.inputs)
+        tick = actuator.tick
+        for _ in range(self._periods):
+            pressure = self.supply.tick()
+            if pressure is not None:
+                actuator.set_supply_pressure(pressure)
+            code = actuator.tick_once(*held)
+            if code:
+                self.failure = actuator.status_message(code)
+                return False
         self._held = noted
-        self._push(stamp, tick, held)
+        self._push(grant.stamp, tick, held)
+        return True
+
+    def _reset(self, grant: Grant) -> bool:
+        """Return to the initial state, and show it; simulated time counts from there."""
+        self._actuator.reset()
+        self._actuator.advance(0.0)
+        self.supply.forget()
+        self._setpoint.centre()
+        self._held = self._inputs()
+        self.resets += 1
+        if self._clock.simulated:
+            self._ring.is_read(_PATIENCE)
+            self._rows = 0
+        self._push(grant.stamp)
+        self._was_reset.set()
+        return True
+
+    def _repeat(self, grant: Grant) -> bool:
+        """Show the state once more, as the same row."""
+        self._ring.push(
+            self._rows - 1, grant.stamp, 0, self._held, self._actuator.row)
+        self._ring.signal()
         return True
 
     def _push(self, stamp: int, tick: int = 0, held: tuple[float, ...] | None = None) -> None:
         """Put the state as it is into the ring, and the field if it is due."""
         actuator, ring, count = self._actuator, self._ring, self._rows
-        ring.push(stamp, tick, self._held if held is None else held, actuator.row)
+        ring.push(count, stamp, tick, self._held if held is None else held, actuator.row)
         share = self._frames_per_tick
         if share and (not count or int(count * share) != int((count - 1) * share)):
             actuator.read_field(ring.frame())
@@ -173,21 +201,14 @@ class Plant:
         self._stamp = stamp
         ring.signal()
 
-    def _inputs(self) -> tuple[float, float, float]:
+    def _inputs(self) -> Inputs:
         """Return the inputs that hold from now on."""
-        inputs = self._setpoint.sample()
+        return self._allowed(self._setpoint.sample())
+
+    def _allowed(self, inputs: Inputs) -> Inputs:
+        """Return inputs as the emergency stop lets them through."""
         return inputs if self.enabled else (*CENTRED, inputs[2])
 
     def _follow_orders(self) -> None:
         while self._orders:
             self._orders.popleft()()
-
-    def _reset(self) -> None:
-        self._actuator.reset()
-        self._actuator.advance(0.0)
-        self.supply.forget()
-        self._setpoint.centre()
-        self._held = self._inputs()
-        self.resets += 1
-        if not self.running:
-            self._push(self._stamp + round(self._period_ns))

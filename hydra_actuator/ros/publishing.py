@@ -25,8 +25,14 @@ class Publishers:
         self._node = node
         self._publishers = []
 
-    def create(self, parameters: Parameters, topics: ActuatorTopics) -> None:
-        """Create what the parameters want, and write the full names into `topics`."""
+    def create(
+        self, parameters: Parameters, topics: ActuatorTopics, clock: bool = False
+    ) -> None:
+        """
+        Create what the parameters want, and write the full names into `topics`.
+
+        clock: whether /clock goes out, whatever the parameters say.
+        """
         topics.joint_states = self._create(JointState, 'joint_states')
         topics.true_joint_states = self._create(JointState, '~/true_joint_states')
         topics.sections = self._create(Float64MultiArray, '~/sections')
@@ -37,7 +43,7 @@ class Publishers:
             topics.pressure[name] = self._create(FluidPressure, f'~/pressure/{name}')
         if parameters['publish.field']:
             topics.field = self._create(Float32MultiArray, '~/field')
-        if parameters['publish.clock']:
+        if clock or parameters['publish.clock']:
             self._warn_of_another_clock()
             topics.clock = self._create(Clock, '/clock')
 

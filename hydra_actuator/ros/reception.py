@@ -9,6 +9,7 @@ their callback group never lets it.
 """
 
 from collections.abc import Callable, Iterable
+from operator import itemgetter
 import time
 
 from hydra_actuator.ros.worker import Worker
@@ -92,15 +93,25 @@ class Reception:
                     self._on_error(error)
 
     def _receive(self, ready: list[int]) -> None:
-        """Take one message of each subscription that has one."""
-        for subscription, receiver in self._receivers:
-            if subscription.handle.pointer not in ready:
-                continue
-            taken = _take(subscription)
-            if taken is not None:
-                data, times = taken
-                received = times['received_timestamp'] or time.time_ns()
-                receiver(data, received, times['source_timestamp'] or received)
+        """Hand over all that has come, in the order in which it was sent."""
+        waiting = [
+            (subscription, receiver) for subscription, receiver in self._receivers
+            if subscription.handle.pointer in ready]
+        heads: list[tuple[int, int, bytes, tuple[Subscription, Receiver]]] = []
+        while not self._worker.stopping:
+            for pair in waiting:
+                taken = _take(pair[0])
+                if taken is not None:
+                    data, times = taken
+                    received = times['received_timestamp'] or time.time_ns()
+                    heads.append((times['source_timestamp'] or received, received, data, pair))
+            if not heads:
+                return
+            first = min(heads, key=itemgetter(0))
+            heads.remove(first)
+            sent, received, data, pair = first
+            waiting = [pair]
+            pair[1](data, received, sent)
 
 
 def _take(subscription: Subscription) -> tuple[bytes, dict] | None:

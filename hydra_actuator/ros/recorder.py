@@ -65,7 +65,15 @@ class Recorder:
     def close(self) -> bool:
         """End the recording; False if it could not be finished in time."""
         writer, self._writer = self._writer, None
-        return writer is None or (writer.close(CLOSING) and writer.error is None)
+        return _closed(writer)
+
+    def begin_anew(self) -> bool:
+        """Go on in a new recording, if one is open; False if the old one is incomplete."""
+        before = self._writer
+        if before is None:
+            return True
+        self.open()
+        return _closed(before)
 
     def put(self, topic: str, log_ns: int, publish_ns: int, data: bytes) -> None:
         """Keep one message."""
@@ -95,3 +103,7 @@ class Recorder:
                 if not path.is_dir():
                     raise
                 number += 1
+
+
+def _closed(writer: QueuedWriter | None) -> bool:
+    return writer is None or (writer.close(CLOSING) and writer.error is None)

@@ -2,6 +2,8 @@
 """
 What a configured node has: actuator, plant, topics, recording; made whole, taken apart whole.
 
+                               ClockSource (when to tick)
+                                      |
     commands -> Inbox -> Setpoint -> Plant (solver thread) -> Ring -> Outputs -> topics
                   |                                                      |
                   +---------------------> Recorder <--------------------+
@@ -12,14 +14,15 @@ import time
 
 from hydra_actuator.actuator import Actuator
 from hydra_actuator.instruments import Instruments
-from hydra_actuator.pacer import Pacer
 from hydra_actuator.parameters import Parameters
+from hydra_actuator.recording.errors import RecordingError
 from hydra_actuator.recording.messages import parameter_event
 from hydra_actuator.recording.run_data import run_data
 from hydra_actuator.recording.topics import ActuatorTopics
+from hydra_actuator.ros.clocks.choice import clock_source
 from hydra_actuator.ros.commands import CommandDesk, CommandRules
 from hydra_actuator.ros.diagnostics import Reports
-from hydra_actuator.ros.inbox import Inbox
+from hydra_actuator.ros.inbox import COMMAND_QOS, Inbox, LOCKSTEP_QOS
 from hydra_actuator.ros.outputs import Outputs
 from hydra_actuator.ros.plant import Plant
 from hydra_actuator.ros.publishing import Publishers
@@ -27,10 +30,13 @@ from hydra_actuator.ros.recorder import Recorder
 from hydra_actuator.ros.ring import Ring
 from hydra_actuator.ros.scheduling import lock_memory, prepare_thread
 from hydra_actuator.ros.setpoint import Setpoint
-from hydra_actuator.ros.statuses import Status
+from hydra_actuator.ros.statuses import ERROR, Status
 from hydra_actuator.ros.vitals import Vitals
 from hydra_actuator.ros.watch import Watch
 from rclpy.node import Node
+
+# Longest wait [s] for the last messages before a reset to be taken.
+_PATIENCE = 1.0
 
 
 class Rig:
@@ -61,18 +67,20 @@ class Rig:
             setattr(self.topics, attribute, name)
         self._publishers = Publishers(node)
         self.inbox = Inbox(
-            node, self.desk, self.setpoint, lambda *message: self.recorder.put(*message))
+            node, self.desk, self.setpoint, self._keep_command,
+            LOCKSTEP_QOS if self.clock.answers else COMMAND_QOS)
         try:
-            self._publishers.create(parameters, self.topics)
+            self._publishers.create(parameters, self.topics, self.clock.answers)
+            self.clock.connect(node)
             self.inbox.subscribe(self.topics)
             self._open_recording()
         except Exception:
             self._disconnect()
             raise
         self._vitals = Vitals(
-            self.actuator, self.pacer, self.inbox, self.setpoint, self._ring, self.recorder,
-            self.setup)
+            self.actuator, self.clock, self.inbox, self.setpoint, self._ring, self.recorder)
         self._build_outputs()
+        reports.log_time = self.clock.log_time
         reports.keep = self.recorder.put
 
     def start(self) -> None:
@@ -88,6 +96,7 @@ class Rig:
         """Stop after the tick, publish what there is, then be silent; the state stays."""
         self.plant.stop()
         self.inbox.stop()
+        self.clock.forget()
         self.outputs.stop()
 
     def pause(self) -> None:
@@ -116,7 +125,8 @@ class Rig:
         done = self.plant.reset()
         if self.paused:
             self.outputs.take()
-        return done
+        # What comes after the answer belongs into the recording that begins with a reset.
+        return done and self._ring.is_read(_PATIENCE)
 
     def record(self) -> None:
         """Begin a recording, complete from the next tick on; raises RecordingError."""
@@ -131,23 +141,25 @@ class Rig:
 
         def apply() -> None:
             self.desk.rules = rules
-            self.setpoint.set_timeout(new['command.timeout'], new['command.on_timeout'])
+            self.setpoint.set_timeout(self._timeout(new), new['command.on_timeout'])
             self.outputs.encoder = encoder
             self.plant.supply.pressure = new['supply.pressure']
             self.outputs.set_instruments(self.plant.rows, (new, {}))
 
         self.plant.order(apply)
         now = time.time_ns()
+        stamp = self.clock.log_time(now)
         table = new.table
-        data = parameter_event(now, self._node.get_fully_qualified_name(), [
+        data = parameter_event(stamp, self._node.get_fully_qualified_name(), [
             (name, table[name].type, new[name]) for name in changes])
-        self.recorder.put(self.topics.parameter_events, now, now, data)
+        self.recorder.put(self.topics.parameter_events, stamp, now, data)
 
     def close(self) -> bool:
         """Stop, end the recording, give up all topics; False if the recording is incomplete."""
         self.stop()
         complete = self.recorder.close()
         self._reports.keep = lambda *message: None
+        self._reports.log_time = lambda system_time: system_time
         self._disconnect()
         return complete
 
@@ -161,15 +173,14 @@ class Rig:
 
     def _build_plant(self) -> None:
         p, actuator = self.parameters, self.actuator
-        self.pacer = Pacer(
-            p['timing.period'] / p['timing.speed'], p['timing.overrun_policy'],
-            p['timing.max_burst'])
+        self.clock = clock_source(p, self.setup)
         self.desk = CommandDesk(CommandRules.of(p))
-        self.setpoint = Setpoint(p['command.timeout'], p['command.on_timeout'])
+        self.setpoint = Setpoint(self._timeout(p), p['command.on_timeout'])
+        self.setpoint.on_command = self.clock.command
         self._ring = Ring(actuator.channels.width, len(actuator.field_labels))
         field = p['recording.enabled'] or p['publish.field']
         self.plant = Plant(
-            actuator, self.pacer, self.setpoint, self._ring,
+            actuator, self.clock, self.setpoint, self._ring,
             p['recording.field_rate'] if field else 0.0)
         self.plant.prepare_thread = lambda: self.setup.update(prepare_thread(p))
         self.plant.on_failure = lambda: self._fail(self.plant.failure)
@@ -182,9 +193,10 @@ class Rig:
         self.outputs = Outputs(
             self._ring, self.topics, instruments, self._publishers.publish,
             self.recorder.put_batch)
-        self.outputs.set_rates(self.parameters)
+        self.outputs.set_rates(self.parameters, self.clock.period, self.clock.answers)
         self.outputs.encoder = self.outputs.encoder_for(_joint_names(self.parameters))
         self.outputs.on_error = lambda error: self._fail(f'publishing: {error!r}')
+        self.outputs.on_restart = self._record_anew
         self.outputs.after_batch = Watch(self._reports.event, self._vitals.watched()).look
 
     def _open_recording(self) -> None:
@@ -200,7 +212,22 @@ class Rig:
             'node', self.parameters.as_yaml(), actuator.section_positions,
             actuator.field_positions, actuator.field_labels)
 
+    def _record_anew(self) -> None:
+        """Begin the recording of a simulated time that begins anew, in the publishing thread."""
+        try:
+            self.recorder.begin_anew()
+        except RecordingError as error:
+            self._reports.event(ERROR, 'Recorder', f'no new recording: {error}')
+
+    def _timeout(self, parameters: Parameters) -> float:
+        """Return the silence that counts: where each command is a tick, there is none."""
+        return 0.0 if self.clock.answers else parameters['command.timeout']
+
+    def _keep_command(self, topic: str, received: int, sent: int, data: bytes) -> None:
+        self.recorder.put(topic, self.clock.log_time(received), sent, data)
+
     def _disconnect(self) -> None:
+        self.clock.disconnect()
         self.inbox.destroy()
         self._publishers.destroy()
 

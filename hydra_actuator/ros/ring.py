@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Memory between the solver's thread and the publishing thread: one writes, one reads, none waits.
+Memory between the solver's thread and the publishing thread: one writes, one reads.
 
-All of it is allocated beforehand. The writer never looks at the reader; a reader that falls
-behind by more than the length loses the oldest entries, and counts them.
+All of it is allocated beforehand. In real time the writer never looks at the reader; a reader
+that falls behind by more than the length loses the oldest entries, and counts them. A writer with
+time asks `has_room` first, and loses none.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 import threading
 from typing import NamedTuple
 
@@ -17,8 +18,9 @@ class Tick(NamedTuple):
     """
     One tick as it was solved.
 
-    number: rows since the start, resets included; stamp [ns]; tick: of the simulation, at its
-    begin; inputs: (spool 1, spool 2, load [N]) held during it; row: the observation at its end.
+    number: rows since simulated time began; a row shown again has its number again; stamp [ns];
+    tick: of the simulation, at its begin; inputs: (spool 1, spool 2, load [N]) held during it;
+    row: the observation at its end.
     """
 
     number: int
@@ -41,6 +43,7 @@ class Ring:
 
     def __init__(self, width: int, nodes: int, length: int = 4096, frames: int = 256):
         """Take the width of a row and the number of nodes of the field."""
+        self._numbers = np.zeros(length, np.int64)
         self._stamps = np.zeros(length, np.int64)
         self._ticks = np.zeros(length, np.int64)
         self._inputs = np.zeros((length, 3))
@@ -52,11 +55,15 @@ class Ring:
         self._frames_written = self._frames_read = 0
         self._news = threading.Lock()
         self._news.acquire()
+        self._taken = threading.Condition()
         self.lost = 0
 
-    def push(self, stamp: int, tick: int, inputs: tuple[float, ...], row: np.ndarray) -> None:
+    def push(
+        self, number: int, stamp: int, tick: int, inputs: tuple[float, ...], row: np.ndarray
+    ) -> None:
         """Add a tick; for the writer only."""
         slot = self._written % len(self._stamps)
+        self._numbers[slot] = number
         self._stamps[slot] = stamp
         self._ticks[slot] = tick
         self._inputs[slot] = inputs
@@ -79,6 +86,16 @@ class Ring:
         if self._news.locked():
             self._news.release()
 
+    def has_room(self, timeout: float) -> bool:
+        """Wait until at most half of it is unread, at most `timeout` [s]; tell whether it is."""
+        return self._wait_for(lambda: 2 * (self._written - self._read) <= len(self._stamps) and (
+            2 * (self._frames_written - self._frames_read) <= len(self._field)), timeout)
+
+    def is_read(self, timeout: float) -> bool:
+        """Wait until nothing is unread, at most `timeout` [s]; tell whether it is so."""
+        return self._wait_for(lambda: self._written == self._read and (
+            self._frames_written == self._frames_read), timeout)
+
     def wait(self, timeout: float) -> None:
         """Wait until signalled, at most `timeout` [s]; for the reader only."""
         self._news.acquire(timeout=timeout)
@@ -89,13 +106,15 @@ class Ring:
         # The oldest slot may be written over while it is read: it counts as lost already.
         first = max(self._read, end - length + 1)
         self.lost += first - self._read
-        for number in range(first, end):
-            slot = number % length
+        for place in range(first, end):
+            slot = place % length
             yield Tick(
-                number, int(self._stamps[slot]), int(self._ticks[slot]),
+                int(self._numbers[slot]), int(self._stamps[slot]), int(self._ticks[slot]),
                 self._inputs[slot].tolist(), self._rows[slot].tolist(),
             )
-        self._read = end
+        with self._taken:
+            self._read = end
+            self._taken.notify_all()
 
     def frames(self) -> Iterator[Frame]:
         """Take the frames that are new; the values are good until the ring has gone round."""
@@ -104,4 +123,12 @@ class Ring:
             slot = number % length
             yield Frame(
                 int(self._field_stamps[slot]), float(self._field_times[slot]), self._field[slot])
-        self._frames_read = end
+        with self._taken:
+            self._frames_read = end
+            self._taken.notify_all()
+
+    def _wait_for(self, reached: Callable[[], bool], timeout: float) -> bool:
+        if reached():
+            return True
+        with self._taken:
+            return self._taken.wait_for(reached, timeout)

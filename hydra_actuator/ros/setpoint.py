@@ -20,6 +20,7 @@ class Setpoint:
         clock: Callable[[], int] = time.monotonic_ns,
     ):
         """Take the silence [s] after which `on_timeout` (`hold`, `centre`) acts; 0 is never."""
+        self.on_command: Callable[[tuple[float, float, float]], None] = lambda inputs: None
         self.timed_out = False
         self.timeouts = 0
         self._clock = clock
@@ -33,9 +34,9 @@ class Setpoint:
         self._limit = (round(timeout * 1e9), on_timeout == 'centre')
 
     def accept(self, spools: Spools) -> None:
-        """Hold a spool command from the next tick on."""
-        self._accepted_ns = self._clock()
-        self._spools = spools
+        """Hold a spool command from the next tick on, and tell `on_command` what holds now."""
+        self._hold(spools)
+        self.on_command((*spools, self._load_force))
 
     def accept_load(self, load_force: float) -> None:
         """Hold an external load [N] from the next tick on."""
@@ -43,7 +44,7 @@ class Setpoint:
 
     def centre(self) -> None:
         """Forget the spool command: 0, as before the first one."""
-        self.accept(CENTRED)
+        self._hold(CENTRED)
 
     @property
     def silence(self) -> float:
@@ -63,3 +64,7 @@ class Setpoint:
         else:
             self.timed_out = False
         return (*spools, self._load_force)
+
+    def _hold(self, spools: Spools) -> None:
+        self._accepted_ns = self._clock()
+        self._spools = spools

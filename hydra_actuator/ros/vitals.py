@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a rig says of itself: the statuses of diagnostics, and the counts that become events."""
 
-from collections.abc import Mapping
-
 from hydra_actuator.actuator import Actuator
-from hydra_actuator.pacer import Pacer
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.ros import statuses
+from hydra_actuator.ros.clocks.source import ClockSource
 from hydra_actuator.ros.inbox import Inbox
 from hydra_actuator.ros.recorder import Recorder
 from hydra_actuator.ros.ring import Ring
@@ -15,25 +13,20 @@ from hydra_actuator.ros.watch import Watched
 
 
 class Vitals:
-    """
-    Reads the parts of a rig, and remembers what has happened of late.
-
-    setup: what scheduling was asked for and had, filled as it is known.
-    """
+    """Reads the parts of a rig, and remembers what has happened of late."""
 
     def __init__(
-        self, actuator: Actuator, pacer: Pacer, inbox: Inbox, setpoint: Setpoint, ring: Ring,
-        recorder: Recorder, setup: Mapping[str, str],
+        self, actuator: Actuator, clock: ClockSource, inbox: Inbox, setpoint: Setpoint,
+        ring: Ring, recorder: Recorder,
     ):
         self._actuator = actuator
-        self._pacer = pacer
+        self._clock = clock
         self._desk = inbox.desk
         self._commanders = inbox.commanders
         self._setpoint = setpoint
         self._ring = ring
         self._recorder = recorder
-        self._setup = setup
-        self._missed, self._rejected = statuses.Recently(), statuses.Recently()
+        self._rejected = statuses.Recently()
         self._boiled, self._vacuum = statuses.Recently(), statuses.Recently()
 
     def oil(self, parameters: Parameters) -> statuses.Status:
@@ -48,9 +41,7 @@ class Vitals:
         """Return what diagnostics say, but for the state of the solver."""
         self._commanders.look()
         return [
-            statuses.real_time(
-                self._pacer, self._actuator.period, self._missed.grew(self._pacer.missed),
-                self._setup),
+            self._clock.status(),
             statuses.command(
                 self._desk, self._setpoint, parameters['command.on_timeout'],
                 self._rejected.grew(self._desk.rejections), self._commanders),
@@ -61,10 +52,9 @@ class Vitals:
     def watched(self) -> list[Watched]:
         """Return the counts that become events."""
         warn = statuses.WARN
-        pacer, actuator = self._pacer, self._actuator
+        actuator = self._actuator
         return [
-            Watched('Real time', warn, 'ticks missed', lambda: pacer.missed),
-            Watched('Real time', warn, 'ticks given up as slip', lambda: pacer.slipped),
+            *self._clock.watched(),
             Watched('Real time', warn, 'ticks not published', lambda: self._ring.lost),
             Watched('Command', warn, 'messages dropped', lambda: self._desk.rejections),
             Watched('Command', warn, 'silence', lambda: self._setpoint.timeouts),

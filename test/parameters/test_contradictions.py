@@ -26,6 +26,12 @@ import pytest
     ({'command.piston_joint': 'valve'},
      ['command.piston_joint = valve', 'command.valve_joint = valve']),
     ({'command.valve_joint': ' '}, ['command.valve_joint']),
+    ({'timing.mode': 'lockstep', 'timing.lockstep_period': 5e-4},
+     ['timing.lockstep_period = 0.0005', 'timing.period = 0.001']),
+    ({'timing.mode': 'lockstep', 'timing.lockstep_period': 1.5e-3},
+     ['timing.lockstep_period = 0.0015', 'timing.period = 0.001']),
+    ({'timing.mode': 'follow_clock', 'publish.clock': True},
+     ['publish.clock = true', 'timing.mode = follow_clock']),
 ])
 def test_contradiction_names_both_sides(changes, named):
     with pytest.raises(ParameterError) as caught:

@@ -149,7 +149,6 @@ def test_looking_up_a_misspelt_name_says_what_was_meant():
 
 
 @pytest.mark.parametrize('changes', [
-    {'timing.mode': 'lockstep'},
     {'fault.enabled': True}, {'recording.mode': 'snapshot'}, {'recording.split_size': 10**6},
 ])
 def test_option_this_version_does_not_have_is_refused_not_ignored(changes):

@@ -81,7 +81,7 @@ def test_empty_lists_keep_their_type(make_door):
     ('valve.stroke:=-1.0', 'valve.stroke = -1.0: below the minimum'),
     ('valve.stroke:=wide', "valve.stroke = 'wide': a number is wanted"),
     ('valve.spools:=2.0', 'valve.spools = 2.0: an integer is wanted'),
-    ('timing.mode:=lockstep', 'timing.mode = lockstep is not available'),
+    ('recording.mode:=snapshot', 'recording.mode = snapshot is not available'),
     ('use_sim_time:=true', 'follow_clock'),
     ('sections.names:=[A, A]', "'A' stands there 2 times"),
     ('initial.position:=0.2', 'initial.position'),
@@ -100,6 +100,24 @@ def test_setting_the_parameter_right_lifts_the_refusal(make_door):
     assert not change(node, ('valve.stroke', Type.DOUBLE, -2.0)).successful
     assert change(node, ('valve.stroke', Type.DOUBLE, 4e-4)).successful
     assert door.parameters()['valve.stroke'] == 4e-4
+
+
+def test_simulated_time_is_for_all_modes_but_realtime(make_door):
+    node, door = make_door('use_sim_time:=true', 'timing.mode:=lockstep')
+    assert door.parameters()['timing.mode'] == 'lockstep'
+    assert not change(node, ('timing.mode', Type.STRING, 'realtime')).successful
+    assert change(node, ('use_sim_time', Type.BOOL, False)).successful
+    assert change(node, ('timing.mode', Type.STRING, 'realtime')).successful
+    assert not change(node, ('use_sim_time', Type.BOOL, True)).successful
+
+
+def test_another_mode_lifts_the_refusal_of_simulated_time(make_door):
+    node, door = make_door('use_sim_time:=true')
+    assert change(node, ('tank.pressure', Type.DOUBLE, 1e6)).successful
+    with pytest.raises(ParameterError, match='follow_clock'):
+        door.parameters()
+    assert change(node, ('timing.mode', Type.STRING, 'follow_clock')).successful
+    assert door.parameters()['timing.mode'] == 'follow_clock'
 
 
 @pytest.mark.parametrize('name, kind, value', [

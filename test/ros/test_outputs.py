@@ -37,13 +37,13 @@ class Outlet:
         self.outputs = Outputs(self.ring, self.topics, instruments, {
             topic: lambda data, topic=topic: self.published.append((topic, data))
             for topic in topics}, self.recorded.extend)
-        self.outputs.set_rates(parameters)
+        self.outputs.set_rates(parameters, 1e-3)
         self.outputs.encoder = self.outputs.encoder_for(('piston', 'valve'))
 
     def push(self, count, inputs=(0.0, 0.0, 0.0)):
         for number in range(self.ring._written, self.ring._written + count):
             row = np.arange(self.channels.width) + number
-            self.ring.push(START + number * 1_000_000, max(0, number - 1), inputs, row)
+            self.ring.push(number, START + number * 1_000_000, max(0, number - 1), inputs, row)
 
     def of(self, topic):
         return [message for message in self.recorded if message[0] == topic]

@@ -5,6 +5,7 @@ import threading
 import time
 
 from hydra_actuator.pacer import Pacer
+from hydra_actuator.ros.clocks.paced import Paced
 from hydra_actuator.ros.plant import Plant
 from hydra_actuator.ros.ring import Ring
 from hydra_actuator.ros.setpoint import Setpoint
@@ -58,7 +59,8 @@ class Bench:
         self.setpoint = Setpoint()
         self.pacer = Pacer(PERIOD, policy, 5)
         self.ring = Ring(4, 2)
-        self.plant = Plant(self.actuator, self.pacer, self.setpoint, self.ring, field_rate)
+        self.plant = Plant(
+            self.actuator, Paced(PERIOD, self.pacer), self.setpoint, self.ring, field_rate)
         self.failed = threading.Event()
         self.plant.on_failure = self.failed.set
         self.ticks = []

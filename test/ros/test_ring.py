@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the solver puts into the ring comes out in order, or is counted as lost."""
 
+import threading
+
 from hydra_actuator.ros.ring import Ring
 import numpy as np
 
 
 def fill(ring, first, last):
     for number in range(first, last):
-        ring.push(1000 + number, number, (0.1, 0.2, 3.0), np.full(4, float(number)))
+        ring.push(number, 1000 + number, number, (0.1, 0.2, 3.0), np.full(4, float(number)))
 
 
 def test_ticks_come_out_once_and_in_order():
@@ -30,6 +32,19 @@ def test_a_reader_that_is_late_loses_the_oldest_and_knows_how_many():
     numbers = [tick.number for tick in ring.ticks()]
     assert numbers == list(range(13, 20))
     assert ring.lost == 13
+
+
+def test_a_writer_with_time_waits_until_half_is_read():
+    ring = Ring(4, 1, length=8)
+    fill(ring, 0, 4)
+    assert ring.has_room(0.0)
+    fill(ring, 4, 5)
+    assert not ring.has_room(0.0)
+    reader = threading.Timer(0.05, lambda: list(ring.ticks()))
+    reader.start()
+    assert ring.has_room(10.0)
+    assert ring.is_read(0.0)
+    reader.join()
 
 
 def test_frames_keep_their_own_values():
