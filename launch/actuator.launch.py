@@ -5,13 +5,12 @@ Start the actuator node.
     ros2 launch hydra_actuator actuator.launch.py namespace:=left recording:=false
 """
 
+from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 from launch_ros.substitutions import FindPackageShare
-
-from launch import LaunchDescription
 
 # What a launch argument sets: parameter and type.
 PARAMETERS = {

@@ -8,6 +8,7 @@ Start the actuator, and ros2_control with a forward_command_controller on its va
 What goes where is in docs/ros2_control.md.
 """
 
+from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import (
@@ -19,8 +20,6 @@ from launch.substitutions import (
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 from launch_ros.substitutions import FindPackageShare
-
-from launch import LaunchDescription
 
 CONTROLLERS = ('joint_state_broadcaster', 'valve_controller')
 SHARE = FindPackageShare('hydra_actuator')
