@@ -3,19 +3,22 @@
 The node's process: signals in the main thread, everything else in another.
 
 A signal in any phase, imports and compilation included, ends in exit code 0 within two seconds:
-the serving thread is asked to stop, and left behind where it is if it cannot answer in time.
+the serving thread is asked to stop, and left behind where it is if it cannot answer in time. The
+process then leaves at once: taking the interpreter apart takes longer than all the rest.
 """
 
+import gc
 import os
 import sys
 import threading
 import traceback
+from typing import NoReturn
 
 from hydra_actuator.errors import InputError
 from hydra_actuator.ros.stopping import end_waiting, take_signals, wait_for_signal
 
 # Time [s] that the serving thread has to end after a signal.
-PATIENCE = 1.6
+PATIENCE = 1.5
 
 
 class Service:
@@ -61,8 +64,12 @@ class Service:
                 self._spin(node)
             finally:
                 node.close()
+                del node
         finally:
             rclpy.try_shutdown()
+            # With its last reference goes the participant: others hear that it has left, and
+            # its shared memory is freed.
+            gc.collect()
 
     def _spin(self, node) -> None:
         from hydra_actuator.ros.guard import log_traceback
@@ -84,8 +91,8 @@ class Service:
         executor.shutdown(timeout_sec=0.0)
 
 
-def main(arguments: list[str]) -> int:
-    """Run the node until a signal; return the exit code, or raise InputError."""
+def main(arguments: list[str]) -> NoReturn:
+    """Run the node until a signal, then end the process; raises InputError."""
     take_signals()
     # A short switch interval keeps the solver's thread from waiting for its turn.
     sys.setswitchinterval(1e-4)
@@ -94,12 +101,10 @@ def main(arguments: list[str]) -> int:
     wait_for_signal()
     service.stop()
     service.thread.join(PATIENCE)
-    if service.thread.is_alive():
-        # It compiles, or imports, and cannot be interrupted; nothing is open yet.
-        _leave(0)
+    # If it is alive still, it compiles or imports and cannot be interrupted; nothing is open yet.
     if service.refusal:
         raise InputError(service.refusal)
-    return 1 if service.crashed else 0
+    _leave(1 if service.crashed else 0)
 
 
 def _initialise(arguments: list[str]) -> None:
@@ -138,7 +143,7 @@ def _first_sentence(error: BaseException) -> str:
     return text.split(', at /', 1)[0]
 
 
-def _leave(code: int) -> None:
+def _leave(code: int) -> NoReturn:
     """End the process at once, with what is printed so far."""
     sys.stdout.flush()
     sys.stderr.flush()

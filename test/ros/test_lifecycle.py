@@ -173,54 +173,6 @@ def test_a_broken_method_stops_the_outputs_and_is_named(node_process, peer):
     assert node.end()[0] == 0
 
 
-@pytest.mark.parametrize('number, interrupts', [
-    (signal.SIGINT, signal.SIG_DFL), (signal.SIGTERM, signal.SIG_DFL),
-    # As a shell starts what runs in the background.
-    (signal.SIGINT, signal.SIG_IGN),
-])
-def test_a_signal_ends_an_active_node_with_a_valid_recording(node_process, number, interrupts):
-    node = node_process(interrupts=interrupts)
-    time.sleep(0.2)
-    code, took = node.end(number)
-    assert (code, took < 2.0) == (0, True)
-    recording = load_recording(node.recording)
-    assert recording.finished
-    assert len(recording.row_stamps) > 100
-    assert 'Traceback' not in node.text
-
-
-@pytest.mark.parametrize('delay', [0.2, 0.6, 1.0])
-def test_a_signal_during_start_up_ends_it_in_order(node_process, tmp_path, delay):
-    node = node_process(active=False)
-    _until_masked(node.popen.pid)
-    time.sleep(delay)
-    code, took = node.end(signal.SIGTERM)
-    assert (code, took < 2.0) == (0, True), node.text
-    assert all(load_recording(path).finished for path in tmp_path.iterdir())
-
-
-def test_a_signal_while_the_solver_compiles_ends_it_in_time(node_process, tmp_path):
-    node = node_process(
-        active=False, environment={'HYDRA_ACTUATOR_CACHE': str(tmp_path / 'cache')})
-    time.sleep(3.0)
-    assert node.popen.poll() is None
-    code, took = node.end(signal.SIGINT)
-    assert (code, took < 2.0) == (0, True)
-    assert 'active: ' not in node.text
-
-
-def _until_masked(pid):
-    """Wait until a process has taken the signals; the interpreter's own start comes before."""
-    end = time.monotonic() + 20.0
-    while time.monotonic() < end:
-        status = open(f'/proc/{pid}/status').read()
-        mask = int(next(line for line in status.splitlines() if 'SigBlk' in line).split()[1], 16)
-        if mask & (1 << (signal.SIGTERM - 1)):
-            return
-        time.sleep(0.005)
-    raise AssertionError('the signals were never taken')
-
-
 @pytest.mark.parametrize('text, words', [
     ('a: [1\n b: 2', 'params file'),
     ('/**:\n  ros__parameters:\n  - 1\n', 'params file'),
