@@ -23,6 +23,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     drive.add_argument('--step', action='store_true', help='step command at time 0')
     drive.add_argument('--chirp', type=float, nargs=2, metavar=('HZ', 'HZ'),
                        help='sine command sweeping between two frequencies')
+    drive.add_argument('--replay', metavar='RECORDING',
+                       help='repeat a run from what was applied, with its own parameters unless '
+                            '--config is given, and say whether its states are bit-identical')
     parser.add_argument('--hold', action='store_true',
                         help='hold each row of the CSV until the next')
     parser.add_argument('--amplitude', type=float, metavar='A',
@@ -31,12 +34,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help='[s]; default: the CSV to its end, else 1')
     parser.add_argument('--rate', type=float, metavar='HZ',
                         help='of states and pressures, at most one per step')
-    parser.add_argument('-o', '--output', required=True, metavar='OUT',
+    parser.add_argument('-o', '--output', metavar='OUT',
                         help='directory of the new recording')
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the verb; return the exit code."""
+    if arguments.replay is not None:
+        return _replay(arguments)
     _check(arguments)
     from hydra_actuator.parameters import load_parameters
     from hydra_actuator.signals import read_table
@@ -55,7 +60,36 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _replay(arguments: argparse.Namespace) -> int:
+    """Repeat a run; 0 if every bit is the same, else 1."""
+    for name in ('duration', 'rate', 'amplitude', 'hold'):
+        if getattr(arguments, name):
+            raise InputError(f'--{name} does not go with --replay, which repeats a run as it was')
+    if arguments.output is not None:
+        refuse_output(arguments.output)
+    from hydra_actuator.parameters import load_parameters
+    from hydra_actuator.replay import Replay
+    other = load_parameters(*arguments.config) if arguments.config else None
+    run = Replay(arguments.replay, other)
+    command = None if arguments.output is None else run.command
+    with ProgressBar('replay') as progress:
+        verdict = run.compare(progress)
+    if not verdict.compared:
+        raise InputError(f'{arguments.replay} holds no states')
+    if command is not None:
+        from hydra_actuator.simulate import simulate
+        simulate(run.parameters, command, command.duration, arguments.output)
+    if verdict.identical:
+        print(f'{verdict.compared} states of {arguments.replay}: bit-identical')
+        return 0
+    print(f'{verdict.differing} of {verdict.compared} states of {arguments.replay} differ, '
+          f'the first {verdict.first}')
+    return 1
+
+
 def _check(arguments: argparse.Namespace) -> None:
+    if arguments.output is None:
+        raise InputError('-o/--output is missing: the directory of the new recording')
     for name in ('duration', 'rate', 'sine'):
         value = getattr(arguments, name)
         if value is not None and not 0.0 < value < math.inf:

@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping
 import math
 import time
 
+from hydra_actuator.channels import Channels
 from hydra_actuator.instruments import Instruments
 from hydra_actuator.recording import messages
 from hydra_actuator.recording.tick import AppliedEncoder, FieldEncoder, TickEncoder
@@ -168,7 +169,8 @@ class Outputs:
                 yield self._topics.cavities, stamp, encoder.cavities(row, stamp)
         if self._clock.due(number):
             yield self._topics.clock, stamp, messages.clock(stamp)
-        if tick.inputs != self._last_inputs:
+        # A reset begins with what holds, said anew.
+        if tick.inputs != self._last_inputs or row[Channels.TIME] == 0.0:
             yield self._encode_inputs(tick)
 
     def _set_instruments(self, number: int) -> None:
@@ -181,7 +183,7 @@ class Outputs:
         self._last_inputs = tick.inputs
         spools, load_force = tick.inputs[:self._channels.spools], tick.inputs[2]
         data = self._applied.encode(tick.tick, spools, load_force)
-        since = tick.stamp - self._period_ns if tick.number else tick.stamp
+        since = tick.stamp - self._period_ns if tick.row[Channels.TIME] else tick.stamp
         return self._topics.applied, since, data
 
     def _encode_frame(self, frame: Frame) -> bytes:

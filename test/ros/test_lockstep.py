@@ -5,6 +5,7 @@ import hashlib
 import math
 
 from hydra_actuator import Actuator, load_parameters, load_recording
+from hydra_actuator.replay import Replay
 from hydra_actuator.ros.client import LockstepClient
 import numpy as np
 import pytest
@@ -105,6 +106,7 @@ def test_a_client_steps_the_node_which_gives_time_and_begins_anew_after_a_reset(
     # Everything in them has simulated time.
     assert before.end_ns == START + 103 * PERIOD_NS
     assert before.start_ns >= START
+    assert all(Replay(path).compare().identical for path in recordings)
 
 
 def test_a_plain_client_that_sends_at_once_has_every_message_obeyed(node_process, peer):

@@ -7,6 +7,7 @@ import time
 from diagnostic_msgs.msg import DiagnosticArray
 from hydra_actuator import Actuator, load_parameters, load_recording
 from hydra_actuator.recording.messages import decode, FLOAT64
+from hydra_actuator.replay import Replay
 import numpy as np
 import pytest
 from rcl_interfaces.srv import SetParametersAtomically
@@ -286,6 +287,8 @@ def test_pause_step_reset_and_resume(node_process, peer):
     assert states[-1].position[1] == 0.0
     assert np.all(np.diff([_stamp(state) for state in states]) >= PERIOD_NS)
     node.end()
+    # Pauses and the reset included, the run can be repeated.
+    assert Replay(node.recording).compare().identical
 
 
 def test_emergency_stop_centres_the_valve_and_drains_the_supply(node_process, peer):
