@@ -10,7 +10,7 @@ The second chamber is seen from G towards the piston, so its direction is -1.
 import math
 
 from hydra_actuator.channels import DOMAINS
-from hydra_actuator.core.model import build_chain, Domain, Junction, Mesh, step_time_within
+from hydra_actuator.core.model import build_chain, Domain, Junction, Mesh
 from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.port import port_coefficient
 from hydra_actuator.core.records import (
@@ -29,6 +29,7 @@ from hydra_actuator.core.source import stored_oil
 from hydra_actuator.core.valve import spool_transition
 from hydra_actuator.geometry import domain_lengths, LINES, origins, wave_speed
 from hydra_actuator.parameters import ParameterError, Parameters
+from hydra_actuator.parameters.streamline import step_time
 import numpy as np
 
 SPOOL_1, SPOOL_2, LOAD_FORCE, TANK_PRESSURE = range(4)
@@ -46,12 +47,8 @@ def oil(parameters: Parameters) -> Oil:
 
 def choose_mesh(parameters: Parameters) -> Mesh:
     """Return the mesh: the period is a whole number of steps."""
-    mach = parameters['solver.max_mach']
-    step_time = step_time_within(
-        parameters['timing.period'], sum(domain_lengths(parameters)),
-        parameters['solver.cells'], wave_speed(parameters), mach)
-    return Mesh(step_time, mach, parameters['solver.iterations'],
-                parameters['solver.interpolation'])
+    return Mesh(step_time(parameters), parameters['solver.max_mach'],
+                parameters['solver.iterations'], parameters['solver.interpolation'])
 
 
 def assemble(parameters: Parameters) -> tuple[Model, State]:

@@ -8,11 +8,10 @@ Coordinates run from the pump (0) to the tank. The second chamber is seen from G
 piston.
 """
 
-import math
-
 from hydra_actuator.channels import STATIONS
 from hydra_actuator.core.observe import SECTION
-from hydra_actuator.parameters import ParameterError, Parameters
+from hydra_actuator.parameters import ParameterError, Parameters, streamline
+from hydra_actuator.parameters.streamline import domain_lengths
 import numpy as np
 
 LINES = ('line', 'line_1', 'line_2')
@@ -25,32 +24,15 @@ def wave_speed(parameters: Parameters, domain: str = '') -> float:
     """
     Return the wave speed [m/s] at gauge zero in a domain, in the oil alone by default.
 
-    c^2 = chi / rho0 / (1 + chi D / (E e)) with the elasticity of a thin wall (Korteweg); the
-    walls of chambers are rigid.
+    The walls of lines may be elastic, those of chambers are rigid.
     """
-    p = parameters
-    softness = 1.0
-    if domain.endswith(LINES) and p[f'{domain}.youngs_modulus'] > 0.0:
-        softness += (p['fluid.bulk_modulus'] * p[f'{domain}.diameter']
-                     / (p[f'{domain}.youngs_modulus'] * p[f'{domain}.wall_thickness']))
-    return math.sqrt(p['fluid.bulk_modulus'] / p['fluid.density'] / softness)
+    return streamline.wave_speed(parameters, domain if domain.endswith(LINES) else '')
 
 
 def cylinder_length(parameters: Parameters) -> float:
     """Return the distance [m] between the fixed ends D and G."""
     return (parameters['cylinder.dead_length_1'] + parameters['cylinder.stroke']
             + parameters['cylinder.dead_length_2'])
-
-
-def domain_lengths(parameters: Parameters) -> tuple[float, ...]:
-    """Return the six lengths [m] at the initial position."""
-    half = 0.5 * parameters['cylinder.stroke']
-    position = parameters['initial.position']
-    return (
-        parameters['supply_line.length'], parameters['line_1.length'],
-        parameters['cylinder.dead_length_1'] + half + position,
-        parameters['cylinder.dead_length_2'] + half - position,
-        parameters['line_2.length'], parameters['return_line.length'])
 
 
 def origins(parameters: Parameters) -> tuple[float, ...]:

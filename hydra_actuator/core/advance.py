@@ -8,9 +8,13 @@ the step time, so any split of the steps gives the same bits.
 
 from hydra_actuator.core.boiling import count_cavities, note_lowest
 from hydra_actuator.core.compilation import formula, kernel
-from hydra_actuator.core.observe import find_limits, SOUND
+from hydra_actuator.core.observe import find_limits, runs_away, SOUND
 from hydra_actuator.core.records import flip
 from hydra_actuator.core.step import step
+
+# Steps between two looks at the limits: oil that is too fast is named as such before it grows
+# into what is no number.
+LOOK_EVERY = 32
 
 
 @formula
@@ -38,7 +42,8 @@ def advance(model, state, passes, schedule, inputs, count, check_interval):
     Advance `count` steps; return the status code (state.fault holds where and how much).
 
     schedule: (times (T,) [s], table (T, C), hold); inputs: work (C,), the inputs in force;
-    check_interval: steps after which limits are checked and cavities counted.
+    check_interval: steps after which cavities are counted; limits are checked then, every
+    LOOK_EVERY steps, at the end, and where an end runs away.
     """
     times, table, hold = schedule
     cursor, code = 0, SOUND
@@ -52,7 +57,8 @@ def advance(model, state, passes, schedule, inputs, count, check_interval):
             note_lowest(model, now)
             if state.step[0] % check_interval == 0:
                 count_cavities(model, now)
-        if state.step[0] % check_interval == 0:
+        if (state.step[0] % LOOK_EVERY == 0 or state.step[0] % check_interval == 0
+                or runs_away(model, now)):
             code, _ = find_limits(model, now)
             if code != SOUND:
                 break

@@ -102,7 +102,9 @@ def look_up_damping(model, state):
     """
     velocity, place, damping = state.velocity, state.place, model.damping
     for i in range(place.size):
-        place[i] = min(math.sqrt(abs(velocity[i])) * model.table_scale, LAST_PLACE)
+        wanted = math.sqrt(abs(velocity[i])) * model.table_scale
+        # so put that what is no number has a place in the table too
+        place[i] = wanted if wanted < LAST_PLACE else LAST_PLACE
     for i in range(place.size):
         k = int(place[i])
         start = model.table_start[i] + k

@@ -12,6 +12,10 @@ from hydra_actuator.core.cavity import gas_balance, ROUNDS_AT_END
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.fluid import relative_compression
 
+# Of |v|/c and p/chi: where a series of three terms is still good to 2e-3; where the quotients
+# 1/(1 - v/c) and 1/(1 + p/chi) come too near to their poles.
+SERIES_REACH, MOST_STEERED = 0.2, 0.9
+
 
 class End(NamedTuple):
     """
@@ -50,8 +54,9 @@ def end_relation(end, velocity):
     Return (pressure, flow, impedance, flatness) of an end at a trial outflow velocity [m/s].
 
     p = chi (exp((W - v)/c) - 1) [Pa], flow at reference density q = v A rho/rho0 [m^3/s].
-    impedance = -dp/dq [Pa s/m^3] and flatness = dv/dq [1/m^2] are short series, good to 1e-6:
-    they steer the iteration, whose fixed point does not depend on them.
+    impedance = -dp/dq [Pa s/m^3] and flatness = dv/dq [1/m^2] steer the iteration, whose fixed
+    point does not depend on them: short series, good to 1e-6 at |v|/c and p/chi of 0.03, and
+    beyond SERIES_REACH the quotients they stand for, which stay positive and finite.
     """
     softness = 1.0
     if end.strength > 0.0:
@@ -64,6 +69,10 @@ def end_relation(end, velocity):
     mach = velocity * end.slowness
     growth = 1.0 + mach * (1.0 + mach * (1.0 + mach))
     lightness = 1.0 - compression * (1.0 - compression * (1.0 - compression))
+    if abs(mach) > SERIES_REACH:
+        growth = 1.0 / (1.0 - min(max(mach, -MOST_STEERED), MOST_STEERED))
+    if abs(compression) > SERIES_REACH:
+        lightness = 1.0 / (1.0 + max(compression, -MOST_STEERED))
     flow = velocity * (end.area + end.area * compression)
     flatness = growth * lightness * end.inverse_area
     return end.bulk_modulus * compression, flow, end.impedance * growth * softness, flatness

@@ -14,6 +14,8 @@ import math
 from hydra_actuator.core.compilation import formula
 
 SERIES_LIMIT = 0.03
+# Far beyond any oil: keeps what has already left the method finite until that is noticed.
+LARGEST = 30.0
 
 
 @formula
@@ -38,7 +40,7 @@ def relative_compression(z):
     A series to |z| = 0.03 (44 MPa in mineral oil), where it is good to rounding.
     """
     if abs(z) > SERIES_LIMIT:
-        return math.expm1(z)
+        return math.expm1(LARGEST if z > LARGEST else z)
     return compression_series(z)
 
 

@@ -83,7 +83,9 @@ def steady_drag(velocity, loss_coefficient, table, table_scale):
     """
     damping, start = table
     size = abs(velocity)
-    place = min(math.sqrt(size) * table_scale, LAST_PLACE)
+    place = math.sqrt(size) * table_scale
+    # so put that what is no number has a place in the table too
+    place = place if place < LAST_PLACE else LAST_PLACE
     k = int(place)
     low = damping[start + k]
     h = low + (place - k) * (damping[start + k + 1] - low)

@@ -73,17 +73,6 @@ class Mesh:
     interpolation: str = 'cubic'
 
 
-def step_time_within(period: float, length: float, cells: int, wave_speed: float,
-                     max_mach: float) -> float:
-    """
-    Return the step time [s]: a whole fraction of `period` [s], at most L/(cells c (1 + max_mach)).
-
-    length: of the whole streamline [m]; wave_speed: the largest [m/s].
-    """
-    longest = length / (cells * wave_speed * (1.0 + max_mach))
-    return period / math.ceil(period / longest * (1.0 - 1e-12))
-
-
 def build_chain(oil: Oil, domains: list[Domain], junctions: list[Junction], mesh: Mesh,
                 **records: np.ndarray) -> tuple[Model, State]:
     """

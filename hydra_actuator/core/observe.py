@@ -55,6 +55,15 @@ def find_limits(model, state):
 
 
 @formula
+def runs_away(model, state):
+    """Return whether oil leaves an end at half the speed of sound or more, or at no number."""
+    for end in range(state.end_velocity.size):
+        if not abs(state.end_velocity[end]) < 0.5 * model.wave_speed[end // 2]:
+            return True
+    return False
+
+
+@formula
 def end_values(model, state, end):
     """
     Return (gauge pressure [Pa], velocity [m/s] from pump to tank) at an end.

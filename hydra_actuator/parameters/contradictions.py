@@ -9,7 +9,9 @@ from collections.abc import Iterator, Mapping
 import re
 
 from hydra_actuator.channels import STATIONS
+from hydra_actuator.parameters.contradictions_mesh import friction, mesh
 from hydra_actuator.parameters.definition import ParameterError, Value
+from hydra_actuator.parameters.streamline import streamline_length, wave_speed
 from hydra_actuator.parameters.table_actuator import EDGES
 from hydra_actuator.parameters.table_hydraulics import LINES
 
@@ -17,21 +19,16 @@ _TOKEN = re.compile(r'[A-Za-z](_?[A-Za-z0-9])*_?')
 _LONGEST_TOKEN = 100
 # Moody's chart and the formulas fitted to it end at this relative roughness.
 _ROUGHEST = 0.05
+# Of the bulk modulus: a pressure beyond has no meaning with a modulus that does not depend on it.
+_MOST_COMPRESSION = 0.5
 
 
 def refuse_contradictions(values: Mapping[str, Value]) -> None:
     """Raise ParameterError on the first contradiction between complete, singly valid values."""
-    for check in (_fluid, _supply, _lines, _valve, _cylinder, _initial, _sections, _joints,
-                  _timing):
+    for check in (_fluid, _supply, _lines, _valve, _cylinder, _initial, _compression, mesh,
+                  friction, _sections, _joints, _timing):
         for contradiction in check(values):
             raise ParameterError(contradiction)
-
-
-def streamline_length(values: Mapping[str, Value]) -> float:
-    """Return the length of the streamline from pump to tank [m], piston at mid-stroke."""
-    lines = sum(values[f'{line}.length'] for line in LINES)
-    dead = values['cylinder.dead_length_1'] + values['cylinder.dead_length_2']
-    return lines + dead + values['cylinder.stroke']
 
 
 def _pair(values: Mapping[str, Value], first: str, relation: str, second: str) -> str:
@@ -95,6 +92,24 @@ def _initial(values: Mapping[str, Value]) -> Iterator[str]:
                 f'{name} = {values[name]} is {absolute} Pa absolute with '
                 + _pair(values, 'ambient_pressure', 'and so below', 'fluid.vapour_pressure')
             )
+
+
+def _compression(values: Mapping[str, Value]) -> Iterator[str]:
+    places = {
+        'supply_line': ('supply.pressure',), 'return_line': ('tank.pressure',),
+        'line_1': ('supply.pressure', 'initial.pressure_1'),
+        'line_2': ('supply.pressure', 'initial.pressure_2')}
+    for line, names in places.items():
+        modulus = values['fluid.density'] * wave_speed(values, line) ** 2
+        soft = modulus < values['fluid.bulk_modulus'] * (1.0 - 1e-9)
+        for name in names:
+            if values[name] > _MOST_COMPRESSION * modulus:
+                wall = f', with {line}.youngs_modulus = {values[f"{line}.youngs_modulus"]}'
+                yield (
+                    f'{name} = {values[name]} exceeds {_MOST_COMPRESSION} of the modulus '
+                    f'{modulus:.4g} Pa in {line} that follows from fluid.bulk_modulus = '
+                    f'{values["fluid.bulk_modulus"]}{wall if soft else ""}'
+                )
 
 
 def _sections(values: Mapping[str, Value]) -> Iterator[str]:

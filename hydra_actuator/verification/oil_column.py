@@ -14,9 +14,10 @@ from dataclasses import dataclass
 from functools import cache
 import math
 
-from hydra_actuator.core.model import Domain, Junction, Mesh, set_domain, step_time_within
+from hydra_actuator.core.model import Domain, Junction, Mesh, set_domain
 from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.records import CLOSED, PISTON, PISTON_PARAMETERS
+from hydra_actuator.parameters.streamline import fit_step
 from hydra_actuator.verification.case import Case, Row
 from hydra_actuator.verification.chains import LoneChain
 from hydra_actuator.verification.drawing import EXACT_LINE, MILLI, SIMPLER, SOLVER
@@ -81,7 +82,7 @@ def swing(column: Column, cells: int) -> tuple[np.ndarray, np.ndarray]:
 
 def _chain(column: Column, cells: int, period: float) -> tuple[LoneChain, int]:
     total = sum(column.lengths)
-    mesh = Mesh(step_time_within(period / SAMPLES, total, cells, SPEED, MACH), MACH)
+    mesh = Mesh(fit_step(period / SAMPLES, total, cells, SPEED, MACH), MACH)
     limit = 0.1 * min(column.lengths)
     piston = np.zeros(1, PISTON_PARAMETERS)
     piston['mass'], piston['limit'] = column.mass, limit
