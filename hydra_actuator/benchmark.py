@@ -16,29 +16,12 @@ from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.core.compilation import kernel
 from hydra_actuator.core.line import sweep
 from hydra_actuator.parameters import Parameters
+from hydra_actuator.parameters.options import EVERYTHING, OPTIONS
 import numpy as np
 
 PIECE = 5              # ticks in one timed piece
 FREQUENCY = 50.0       # [Hz] of the full-stroke sine
 WARM_UP = 0.05         # [s]
-
-_LINES = ('supply_line', 'line_1', 'line_2', 'return_line')
-# What each option of the physics adds to the model it is compared with.
-OPTIONS = {
-    'steady friction': {f'{line}.friction': 'steady' for line in _LINES},
-    'unsteady friction': {f'{line}.friction': 'unsteady' for line in _LINES},
-    'cavitation': {'fluid.cavitation': True},
-    'elastic walls': {f'{line}.youngs_modulus': 2.1e11 for line in _LINES},
-    'accumulator': {'supply.accumulator_volume': 1e-3},
-    'four edges (underlap, leakage)': {
-        **{f'valve.overlap_{edge}': -1e-5 for edge in ('pa', 'pb', 'at', 'bt')},
-        'valve.leakage': 1e-13},
-    'spool dynamics': {'valve.natural_frequency': 200.0, 'valve.slew_rate': 0.5},
-    'piston friction': {'cylinder.coulomb_friction': 100.0, 'cylinder.static_friction': 200.0},
-    'piston leakage': {'cylinder.leakage': 1e-13},
-}
-EVERYTHING = {name: value for option in ('unsteady friction', *OPTIONS)
-              if option != 'steady friction' for name, value in OPTIONS[option].items()}
 
 
 @dataclass(frozen=True)

@@ -2,8 +2,9 @@
 """The measurements of speed: that they measure what they say."""
 
 from hydra_actuator.actuator import SolverError
-from hydra_actuator.benchmark import EVERYTHING, measure_options, measure_speed, OPTIONS
+from hydra_actuator.benchmark import measure_options, measure_speed
 from hydra_actuator.parameters import Parameters
+from hydra_actuator.parameters.options import EVERYTHING, OPTIONS
 import numpy as np
 import pytest
 

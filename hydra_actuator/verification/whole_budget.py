@@ -19,9 +19,9 @@ from functools import cache
 import math
 
 from hydra_actuator.actuator import Actuator
-from hydra_actuator.benchmark import EVERYTHING
 from hydra_actuator.errors import Failure
 from hydra_actuator.parameters import Parameters
+from hydra_actuator.parameters.options import EVERYTHING
 from hydra_actuator.verification.case import Case, Row
 from hydra_actuator.verification.conservation import integral
 from hydra_actuator.verification.weighing import FACES, Weigher

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The verb `bench`."""
 
-from hydra_actuator.benchmark import OPTIONS
 from hydra_actuator.cli.main import main
+from hydra_actuator.parameters.options import OPTIONS
 import pytest
 
 

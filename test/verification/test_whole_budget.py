@@ -2,8 +2,8 @@
 """Mass and energy of a whole actuator with every option on."""
 
 from hydra_actuator.actuator import Actuator
-from hydra_actuator.benchmark import EVERYTHING
 from hydra_actuator.parameters import Parameters
+from hydra_actuator.parameters.options import EVERYTHING
 from hydra_actuator.verification import whole_budget
 from hydra_actuator.verification.case import failures
 from hydra_actuator.verification.weighing import Weigher
