@@ -23,6 +23,7 @@ VERBS = {
     'simulate': 'an offline run, as fast as possible, into a recording',
     'report': 'one self-contained page about a recording',
     'info': 'what a recording holds',
+    'recover': 'salvage of an unfinished or damaged recording',
     'paper': 'every figure of the paper, and its statements beside our numbers',
     'verify': 'the solver against exact solutions and conservation laws',
     'response': 'frequency response about an operating point, null curves of the valve',

@@ -10,6 +10,7 @@ Nothing in here imports rclpy; it knows the channels of the actuator, not its ph
     tick         one observation row as messages
     topics       names, types and quality of service of what is recorded
     run_data     with what a recording was made
+    opening      what stands in a file before its first chunk
     segment      one MCAP file being written
     metadata     the text of metadata.yaml
     writer       a recording: directory, metadata, segments
@@ -18,4 +19,7 @@ Nothing in here imports rclpy; it knows the channels of the actuator, not its ph
     series       the messages of one topic as arrays
     rows         observation rows from the topics of the state
     reader       a recording as arrays over time
+    salvage      what is sound in one file, damaged or not
+    proof        its topics and custom data, as far as they can be proved
+    recovery     a new recording made of what is sound
 """

@@ -22,6 +22,7 @@ import re
 import struct
 
 from hydra_actuator.recording.definitions import definition, SEPARATOR
+from hydra_actuator.recording.errors import RecordingError
 
 HEADER = b'\x00\x01\x00\x00'
 
@@ -36,7 +37,7 @@ _FIELD = re.compile(
 )
 
 
-class CdrError(ValueError):
+class CdrError(RecordingError, ValueError):
     """Bytes are not the message they are said to be, or values do not fit its fields."""
 
 

@@ -107,6 +107,15 @@ def read_metadata(directory: Path) -> dict:
         raise RecordingError(f'{path} is not the metadata of a recording') from None
 
 
+def mcap_files(directory: Path) -> list[Path]:
+    """Return the MCAP files of a recording, NAME_2 before NAME_10, listed or not."""
+    def key(path: Path) -> tuple[str, int]:
+        name, number = re.fullmatch(r'(.*?)([0-9]*)', path.stem, re.DOTALL).groups()
+        return name, int(number or 0)
+
+    return sorted(directory.glob('*.mcap'), key=key)
+
+
 def _span(files: Sequence[FileInformation]) -> tuple[int, int]:
     """Return (start, duration) [ns] of all files together."""
     starts = [file.start_ns for file in files if file.start_ns is not None]

@@ -20,10 +20,10 @@ from pathlib import Path
 from hydra_actuator.channels import Channels
 from hydra_actuator.recording import messages
 from hydra_actuator.recording.errors import RecordingError
-from hydra_actuator.recording.metadata import FILE_NAME, read_metadata
+from hydra_actuator.recording.metadata import FILE_NAME, mcap_files, read_metadata
+from hydra_actuator.recording.opening import CUSTOM_DATA
 from hydra_actuator.recording.rows import StateTopics
 from hydra_actuator.recording.scan import scan, ScannedFile
-from hydra_actuator.recording.segment import CUSTOM_DATA
 from hydra_actuator.recording.series import Series
 import numpy as np
 
@@ -202,6 +202,8 @@ def load_recording(path: str | Path) -> Recording:
     names = metadata.get('relative_file_paths') or []
     if metadata.get('storage_identifier') != 'mcap' or not names:
         raise RecordingError(f'{path} holds no MCAP files')
+    # A file begun just before the writer died may not be in the list yet.
+    names += [file.name for file in mcap_files(path) if file.name not in names]
     files = [scan(path / name) for name in names]
     return Recording(path, files, metadata.get('custom_data') or {})
 
@@ -211,10 +213,13 @@ def _series(files: list[ScannedFile]) -> dict[str, Series]:
     found: dict[str, Series] = {}
     for file in files:
         for number, channel in file.channels.items():
-            schema = file.schemas[channel.schema_id]
-            series = found.setdefault(
-                channel.topic, Series(channel.topic, schema.name, schema.data.decode())
-            )
+            try:
+                schema = file.schemas[channel.schema_id]
+                series = Series(channel.topic, schema.name, schema.data.decode())
+            except (KeyError, UnicodeDecodeError):
+                raise RecordingError(
+                    f'{file.path} is damaged: {channel.topic} has no readable schema') from None
+            series = found.setdefault(channel.topic, series)
             for chunk in file.chunks:
                 series.add(chunk, number)
     return found

@@ -10,6 +10,7 @@ chunks, compression and indexes; attachments are skipped.
 A cut-off end is no error (`finished` says so); a wrong checksum inside is.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
@@ -17,15 +18,18 @@ import struct
 import zlib
 
 from hydra_actuator.recording.errors import RecordingError
-from hydra_actuator.recording.segment import MAGIC
+from hydra_actuator.recording.opening import CHECKSUMS, MAGIC, parts_before
 from mcap.data_stream import ReadDataStream
 from mcap.exceptions import EndOfFile
 from mcap.opcode import Opcode
 from mcap.records import Channel, Metadata, Schema
 import numpy as np
 
-_RECORD = struct.Struct('<BQ')
-_CHUNK = struct.Struct('<QQQII')
+RECORD_HEAD = struct.Struct('<BQ')
+CHUNK_HEAD = struct.Struct('<QQQII')
+
+# No writer makes chunks that large [byte].
+_LARGEST_CHUNK = 1 << 31
 
 
 @dataclass
@@ -60,7 +64,7 @@ def scan(path: Path) -> ScannedFile:
     found = ScannedFile(path)
     try:
         _Walk(found, content).run()
-    except (struct.error, EndOfFile, UnicodeDecodeError, KeyError) as error:
+    except (struct.error, EndOfFile, ValueError, KeyError) as error:
         raise RecordingError(f'{path} is damaged: {error!r}') from None
     return found
 
@@ -75,7 +79,7 @@ class _Walk:
 
     def run(self) -> None:
         found, end = self._found, len(self._content)
-        for opcode, start, stop in _records(self._content, len(MAGIC)):
+        for opcode, start, stop in records(self._content, len(MAGIC)):
             if opcode == Opcode.FOOTER:
                 found.finished = self._content[stop: stop + len(MAGIC)].tobytes() == MAGIC
                 break
@@ -85,7 +89,7 @@ class _Walk:
                 self._index(start, stop)
             elif opcode == Opcode.MESSAGE:
                 number = int.from_bytes(self._content[start: start + 2].tobytes(), 'little')
-                self._outside.setdefault(number, []).append(start - _RECORD.size)
+                self._outside.setdefault(number, []).append(start - RECORD_HEAD.size)
             else:
                 self._definition(self._content, opcode, start, stop)
             end = stop
@@ -104,13 +108,16 @@ class _Walk:
 
     def _chunk(self, start: int, stop: int) -> Chunk:
         body = self._content[start:stop]
-        *_, size, crc, length = _CHUNK.unpack_from(body)
-        at = _CHUNK.size + length
-        compression = body[_CHUNK.size: at].tobytes().decode()
-        content = _decompressed(compression, body[at + 8:], size)
+        *_, size, crc, length = CHUNK_HEAD.unpack_from(body)
+        at = CHUNK_HEAD.size + length
+        compression = body[CHUNK_HEAD.size: at].tobytes().decode()
+        try:
+            content = decompressed(compression, body[at + 8:], size)
+        except RecordingError as error:
+            raise RecordingError(f'{self._found.path} is damaged: {error}') from None
         if len(content) != size or (crc and zlib.crc32(content) != crc):
             raise RecordingError(f'{self._found.path} is damaged: checksum of the chunk at byte '
-                                 f'{start - _RECORD.size}')
+                                 f'{start - RECORD_HEAD.size}')
         return Chunk(content)
 
     def _index(self, start: int, stop: int) -> None:
@@ -122,51 +129,73 @@ class _Walk:
 
     def _walk_chunk(self, chunk: Chunk) -> None:
         offsets: dict[int, list[int]] = {}
-        for opcode, start, stop in _records(chunk.content, 0):
+        for opcode, start, stop in records(chunk.content, 0):
             if opcode == Opcode.MESSAGE:
                 number = int.from_bytes(chunk.content[start: start + 2].tobytes(), 'little')
-                offsets.setdefault(number, []).append(start - _RECORD.size)
+                offsets.setdefault(number, []).append(start - RECORD_HEAD.size)
             else:
                 self._definition(chunk.content, opcode, start, stop)
         chunk.offsets = {number: np.array(found) for number, found in offsets.items()}
 
     def _definition(self, content: np.ndarray, opcode: int, start: int, stop: int) -> None:
-        """Keep a schema, a channel or a metadata record."""
+        """Keep a schema, a channel or a metadata record; of repeated ones the first."""
         if opcode not in (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.METADATA):
             return
         stream = ReadDataStream(BytesIO(content[start:stop].tobytes()))
         if opcode == Opcode.SCHEMA:
             schema = Schema.read(stream)
-            self._found.schemas[schema.id] = schema
+            self._found.schemas.setdefault(schema.id, schema)
         elif opcode == Opcode.CHANNEL:
             channel = Channel.read(stream)
-            self._found.channels[channel.id] = channel
+            self._found.channels.setdefault(channel.id, channel)
         else:
             record = Metadata.read(stream)
             self._found.metadata[record.name] = record.metadata
+            if record.name == CHECKSUMS:
+                self._check_opening(start - RECORD_HEAD.size, record.metadata)
+
+    def _check_opening(self, end: int, entries: dict[str, str]) -> None:
+        parts = parts_before(self._content[:end].tobytes(), end, entries)
+        if None in parts.values():
+            raise RecordingError(f'{self._found.path} is damaged: checksum of its definitions')
 
 
-def _records(content: np.ndarray, at: int):
+def records(content: np.ndarray, at: int) -> Iterator[tuple[int, int, int]]:
     """Yield (opcode, start, stop of the body) of each whole record."""
     view, size = memoryview(content), len(content)
-    while at + _RECORD.size <= size:
-        opcode, length = _RECORD.unpack_from(view, at)
-        start = at + _RECORD.size
+    while at + RECORD_HEAD.size <= size:
+        opcode, length = RECORD_HEAD.unpack_from(view, at)
+        start = at + RECORD_HEAD.size
         at = start + length
         if at > size:
             return
         yield opcode, start, at
 
 
-def _decompressed(compression: str, data: np.ndarray, size: int) -> np.ndarray:
+def decompressed(compression: str, data: np.ndarray, size: int) -> np.ndarray:
+    """Return a chunk's records; RecordingError if it is damaged or its compression unknown."""
     if compression == '':
         return data
-    if compression == 'zstd':
-        import zstandard
-        content = zstandard.ZstdDecompressor().decompress(data.tobytes(), max_output_size=size)
-    elif compression == 'lz4':
-        import lz4.frame
-        content = lz4.frame.decompress(data.tobytes())
-    else:
+    if compression not in ('zstd', 'lz4'):
         raise RecordingError(f'compression {compression!r} is not known')
+    if size > _LARGEST_CHUNK:
+        raise RecordingError(f'a chunk says that it holds {size} bytes')
+    try:
+        content = (_unzstd if compression == 'zstd' else _unlz4)(data.tobytes(), size)
+    except Exception as error:  # neither package names all that its C code raises
+        raise RecordingError(f'a chunk cannot be decompressed: {error}') from None
     return np.frombuffer(content, np.uint8)
+
+
+def _unzstd(data: bytes, size: int) -> bytes:
+    import zstandard
+
+    if zstandard.frame_content_size(data) not in (-1, size):
+        raise ValueError('not of the size it says')
+    return zstandard.ZstdDecompressor().decompress(data, max_output_size=size)
+
+
+def _unlz4(data: bytes, size: int) -> bytes:
+    import lz4.frame
+
+    return lz4.frame.LZ4FrameDecompressor().decompress(data, max_length=size)

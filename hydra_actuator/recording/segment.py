@@ -2,14 +2,14 @@
 """
 One MCAP file of a recording, being written.
 
-    magic | Header | Schemas | Channels | custom data | (Chunk | its MessageIndexes) ... | rosbag2
-    metadata | DataEnd | summary: Schemas, Channels, Statistics, ChunkIndexes, MetadataIndexes,
-    their offsets | Footer | magic
+    magic | opening | (Chunk | its MessageIndexes) ... | rosbag2 metadata | DataEnd |
+    summary: Schemas, Channels, Statistics, ChunkIndexes, MetadataIndexes, their offsets |
+    Footer | magic
 
-Schemas and channels stand before the first chunk, so that whatever is cut off behind them, the
-rest can be read. A chunk with its indexes goes to the file in one piece. The rare records are
-those of the mcap package; chunks are put together here, because fourteen thousand messages a
-second through its writer cost four times the processor time.
+Schemas and channels stand in the opening, before the first chunk, so that whatever is cut off
+behind them, the rest can be read. A chunk with its indexes goes to the file in one piece. The rare
+records are those of the mcap package; chunks are put together here, because fourteen thousand
+messages a second through its writer cost four times the processor time.
 
 Source: the MCAP specification, mcap.dev/spec.
 """
@@ -19,19 +19,23 @@ from pathlib import Path
 import struct
 import zlib
 
-from hydra_actuator import __version__
-from hydra_actuator.recording.definitions import definition, ENCODING, type_hashes
 from hydra_actuator.recording.metadata import FileInformation
+from hydra_actuator.recording.opening import (
+    CHECKSUMS,
+    checksums,
+    CUSTOM_DATA,
+    definition_records,
+    encoded,
+    HEADER,
+    MAGIC,
+)
 from hydra_actuator.recording.topics import Topic
-from mcap.data_stream import RecordBuilder
 from mcap.opcode import Opcode
 from mcap.records import (
     Channel,
     ChunkIndex,
     DataEnd,
     Footer,
-    Header,
-    McapRecord,
     Metadata,
     MetadataIndex,
     Schema,
@@ -39,10 +43,6 @@ from mcap.records import (
     SummaryOffset,
 )
 
-MAGIC = b'\x89MCAP0\r\n'
-PROFILE = 'ros2'
-LIBRARY = f'hydra_actuator {__version__}'
-CUSTOM_DATA = 'hydra_actuator'
 COMPRESSIONS = ('none', 'zstd')
 
 Message = tuple[str, int, int, bytes]
@@ -80,7 +80,7 @@ class Segment:
         self._compress = _compressor(compression)
         self._compression = '' if compression == 'none' else compression
         self._channels = {topic.name: _Recorded(i + 1) for i, topic in enumerate(topics)}
-        self._definitions = _definitions(topics)
+        self._definitions = definition_records(topics)
         self._chunks = 0
         # As they will stand in the file: as records they would take ten times the memory, for
         # as long as the recording goes on.
@@ -89,8 +89,10 @@ class Segment:
         self._parts: list[bytes] = []
         self._filled = 0
         self._file = open(path, 'xb', buffering=0)
-        self._put(MAGIC + _records([Header(PROFILE, LIBRARY), *self._definitions]))
-        self.add_metadata(CUSTOM_DATA, custom_data)
+        definitions = encoded(self._definitions)
+        self._put(MAGIC + encoded([HEADER]) + definitions)
+        custom = self.add_metadata(CUSTOM_DATA, custom_data)
+        self.add_metadata(CHECKSUMS, checksums(definitions, custom))
 
     @property
     def counts(self) -> dict[str, int]:
@@ -133,7 +135,7 @@ class Segment:
         chunk = b''.join((struct.pack('<BQ', Opcode.CHUNK, len(head) + len(data)), head, data))
         behind, offsets = _message_indexes(indexes, self.size + len(chunk))
         self._chunks += 1
-        self._chunk_indexes += _records([ChunkIndex(
+        self._chunk_indexes += encoded([ChunkIndex(
             message_start_time=start, message_end_time=end, chunk_start_offset=self.size,
             chunk_length=len(chunk), message_index_offsets=offsets,
             message_index_length=len(behind), compression=self._compression,
@@ -144,17 +146,18 @@ class Segment:
         self.start_ns = start if self.start_ns is None else min(start, self.start_ns)
         self.end_ns = end if self.end_ns is None else max(end, self.end_ns)
 
-    def add_metadata(self, name: str, entries: Mapping[str, str]) -> None:
-        """Write a metadata record."""
-        record = _records([Metadata(name=name, metadata=dict(entries))])
+    def add_metadata(self, name: str, entries: Mapping[str, str]) -> bytes:
+        """Write a metadata record, and return it."""
+        record = encoded([Metadata(name=name, metadata=dict(entries))])
         self._metadata_indexes.append(MetadataIndex(self.size, len(record), name))
         self._put(record)
+        return record
 
     def close(self) -> None:
         """Write the open chunk and the summary, and close the file."""
         try:
             self.end_chunk()
-            self._put(_records([DataEnd(0)]))
+            self._put(encoded([DataEnd(0)]))
             self._put(self._summary() + MAGIC)
         finally:
             self._file.close()
@@ -188,45 +191,17 @@ class Segment:
         )
         content, offsets = b'', []
         for text, opcode in (
-            (_records(schemas), Opcode.SCHEMA), (_records(channels), Opcode.CHANNEL),
-            (_records([statistics]), Opcode.STATISTICS), (self._chunk_indexes, Opcode.CHUNK_INDEX),
-            (_records(self._metadata_indexes), Opcode.METADATA_INDEX),
+            (encoded(schemas), Opcode.SCHEMA), (encoded(channels), Opcode.CHANNEL),
+            (encoded([statistics]), Opcode.STATISTICS), (self._chunk_indexes, Opcode.CHUNK_INDEX),
+            (encoded(self._metadata_indexes), Opcode.METADATA_INDEX),
         ):
             if text:
                 offsets.append(SummaryOffset(opcode, self.size + len(content), len(text)))
             content += text
         start, offsets_start = self.size, self.size + len(content)
-        content += _records(offsets)
+        content += encoded(offsets)
         crc = zlib.crc32(content + struct.pack('<BQQQ', Opcode.FOOTER, 20, start, offsets_start))
-        return content + _records([Footer(start, offsets_start, crc)])
-
-
-def _definitions(topics: Sequence[Topic]) -> list[McapRecord]:
-    """Return the schemas, each once, then the channels."""
-    types = list(dict.fromkeys(topic.type for topic in topics))
-    schemas = [
-        Schema(id=number + 1, name=name, encoding=ENCODING, data=definition(name).encode())
-        for number, name in enumerate(types)
-    ]
-    channels = [
-        Channel(
-            id=number + 1, topic=topic.name, message_encoding='cdr',
-            schema_id=types.index(topic.type) + 1,
-            metadata={
-                'offered_qos_profiles': topic.offered_qos_profiles(),
-                'topic_type_hash': type_hashes()[topic.type],
-            },
-        )
-        for number, topic in enumerate(topics)
-    ]
-    return [*schemas, *channels]
-
-
-def _records(records: Iterable[McapRecord]) -> bytes:
-    builder = RecordBuilder()
-    for record in records:
-        record.write(builder)
-    return builder.end()
+        return content + encoded([Footer(start, offsets_start, crc)])
 
 
 def _message_indexes(indexes: Mapping[int, list[int]], at: int) -> tuple[bytes, dict[int, int]]:

@@ -62,7 +62,7 @@ class RecordingWriter:
         self._flush_period = flush_period
         topics, custom_data = _checked(topics), dict(custom_data or {})
         self._metadata = BagMetadata(topics, custom_data)
-        made = _make_directory(self.directory)
+        self._made = _make_directory(self.directory)
         try:
             self._segment = Segment(
                 self.directory / f'{self.directory.name}_0.mcap', topics, custom_data,
@@ -71,7 +71,7 @@ class RecordingWriter:
             self._write_metadata()
         except OSError as error:
             shutil.rmtree(self.directory, ignore_errors=True)
-            _remove(made)
+            _remove(self._made)
             raise _failure(self.directory, error) from None
         self._flushed = time.monotonic()
 
@@ -131,6 +131,13 @@ class RecordingWriter:
         except OSError as error:
             segment.abandon()
             raise _failure(segment.path, error) from None
+
+    def discard(self) -> None:
+        """Remove all of the recording, and the directories that were made for it."""
+        self.closed = True
+        self._segment.abandon()
+        shutil.rmtree(self.directory, ignore_errors=True)
+        _remove(self._made)
 
     def _write_metadata(self) -> None:
         """Replace metadata.yaml as a whole: a reader never meets half of it."""

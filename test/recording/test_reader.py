@@ -260,6 +260,31 @@ def test_an_index_that_points_astray_is_found(make_recording, offset):
         load_recording(made.directory).rows  # noqa: B018
 
 
+def test_a_file_that_the_metadata_do_not_list_yet_is_read(make_recording):
+    made = make_recording(ticks=10)
+    for number in (1, 2, 10):
+        shutil.copy(made.directory / 'run_0.mcap', made.directory / f'run_{number}.mcap')
+    recording = load_recording(made.directory)
+    assert [path.name for path in recording.files] == [
+        'run_0.mcap', 'run_1.mcap', 'run_2.mcap', 'run_10.mcap']
+    assert len(recording.rows) == 40
+
+
+@pytest.mark.parametrize('compression', ['none', 'zstd'])
+def test_bits_flipped_anywhere_are_refused_or_do_no_harm(make_recording, tmp_path, compression):
+    made = make_recording(ticks=10, compression=compression)
+    content = (made.directory / 'run_0.mcap').read_bytes()
+    lone = tmp_path / 'lone.mcap'
+    for place in range(9, len(content), len(content) // 60):
+        flipped = bytearray(content)
+        flipped[place] ^= 16
+        lone.write_bytes(flipped)
+        try:
+            assert load_recording(lone).rows.shape[0] <= 10
+        except RecordingError as error:
+            assert 'lone.mcap' in str(error) or 'damaged' in str(error)
+
+
 def test_what_is_no_recording_is_named(tmp_path, make_recording):
     with pytest.raises(RecordingError, match='nowhere does not exist'):
         load_recording(tmp_path / 'nowhere')
