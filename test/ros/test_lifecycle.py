@@ -2,16 +2,18 @@
 """The lifecycle of a real node: states, failures, signals, and what /diagnostics say meanwhile."""
 
 import os
+import shutil
 import signal
 import time
 
 from diagnostic_msgs.msg import DiagnosticArray
 from hydra_actuator import load_recording
+from hydra_actuator.parameters import PARAMETERS
 from lifecycle_msgs.msg import State, Transition
 from lifecycle_msgs.srv import ChangeState, GetState
 import numpy as np
 import pytest
-from rcl_interfaces.srv import SetParametersAtomically
+from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParametersAtomically
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
@@ -54,6 +56,43 @@ def await_message(peer, heard, part, words):
     return found
 
 
+def refuses(peer, *transitions):
+    """Ask for transitions that are not there in this state; they change nothing."""
+    before = state(peer)
+    for transition in transitions:
+        assert not transit(peer, transition)
+    assert not peer.call(
+        ChangeState, '/actuator/change_state', transition=Transition(label='no_such')).success
+    assert state(peer) == before
+
+
+def assign(peer, **values):
+    """Set parameters together; names with two underscores for the dot. Return the result."""
+    parameters = [
+        Parameter(name.replace('__', '.'), value=value).to_parameter_msg()
+        for name, value in values.items()]
+    return peer.call(SetParametersAtomically, '/actuator/set_parameters_atomically',
+                     parameters=parameters).result
+
+
+def described_over_dds(peer):
+    """See that every parameter has type, unit, range and meaning in its descriptor."""
+    names = sorted(PARAMETERS)
+    found = peer.call(DescribeParameters, '/actuator/describe_parameters', names=names)
+    assert [one.name for one in found.descriptors] == names
+    for shown in found.descriptors:
+        definition = PARAMETERS[shown.name]
+        assert definition.meaning in shown.description
+        if definition.unit not in ('', '1'):
+            assert shown.description.endswith(f'[{definition.unit}]')
+        limits = [*shown.floating_point_range, *shown.integer_range]
+        for end, bound in (('from_value', definition.minimum), ('to_value', definition.maximum)):
+            if bound is not None and not definition.is_array:
+                assert getattr(limits[0], end) == bound
+        assert ('not while active' in shown.additional_constraints) != definition.live
+        assert all(choice in shown.additional_constraints for choice in definition.choices)
+
+
 def stamps(heard):
     return np.array([one.header.stamp.sec * 10**9 + one.header.stamp.nanosec for one in heard])
 
@@ -63,14 +102,27 @@ def test_every_state_speaks_and_only_the_active_one_publishes(node_process, peer
     heard = peer.hear(DiagnosticArray, '/diagnostics')
     states = peer.hear(JointState, '/joint_states')
     await_message(peer, heard, 'Solver', 'unconfigured')
+    described_over_dds(peer)
+    refuses(peer, Transition.TRANSITION_ACTIVATE, Transition.TRANSITION_DEACTIVATE,
+            Transition.TRANSITION_CLEANUP, 99)
     assert transit(peer, Transition.TRANSITION_CONFIGURE)
     await_message(peer, heard, 'Solver', 'inactive')
+    refuses(peer, Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_DEACTIVATE)
     assert not states
     assert transit(peer, Transition.TRANSITION_ACTIVATE)
     peer.until(lambda: len(states) > 50)
     assert 'active: 1000 Hz, recording to ' in node.text
     command = peer.publisher(Float64, '/actuator/spool_command')
     peer.send(command, Float64(data=0.5), lambda: states[-1].position[1] > 0.0)
+    refuses(peer, Transition.TRANSITION_ACTIVATE, Transition.TRANSITION_CONFIGURE,
+            Transition.TRANSITION_CLEANUP)
+    # All or none: what may not change while active keeps the rest as it was.
+    refused = assign(peer, supply__pressure=19e6, cylinder__mass=20.0)
+    assert not refused.successful
+    assert refused.reason == 'cylinder.mass: not while the node is active; deactivate it first'
+    kept = peer.call(GetParameters, '/actuator/get_parameters',
+                     names=['supply.pressure', 'cylinder.mass']).values
+    assert [one.double_value for one in kept] == [21e6, 10.0]
 
     assert transit(peer, Transition.TRANSITION_DEACTIVATE)
     await_message(peer, heard, 'Solver', 'inactive')
@@ -94,28 +146,23 @@ def test_every_state_speaks_and_only_the_active_one_publishes(node_process, peer
     assert load_recording(recording).finished
     await_message(peer, heard, 'Recorder', 'not recording')
 
-    # Configured again: a new actuator, a new recording, topics declared anew.
+    # Configured again with other parameters: a new actuator, a new recording, topics anew.
+    assert assign(peer, timing__period=0.002, cylinder__mass=20.0,
+                  command__valve_joint='spool').successful
     assert transit(peer, Transition.TRANSITION_CONFIGURE)
-    assert transit(peer, Transition.TRANSITION_ACTIVATE)
     before = len(states)
+    assert transit(peer, Transition.TRANSITION_ACTIVATE)
     peer.until(lambda: len(states) > before + 20)
+    assert 'active: 500 Hz, recording to ' in node.text
+    assert states[-1].name == ['piston', 'spool']
+    assert np.all(np.diff(stamps(states)[before:]) % (2 * PERIOD_NS) == 0)
     assert node.recording != recording
+    assert 'mass: 20.0' in load_recording(node.recording).custom_data['parameters']
     assert transit(peer, Transition.TRANSITION_ACTIVE_SHUTDOWN)
     await_message(peer, heard, 'Solver', 'finalized')
+    refuses(peer, Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE)
     code, took = node.end()
     assert (code, took < 2.0) == (0, True)
-
-
-def test_an_invalid_transition_is_answered_and_survived(node_process, peer):
-    node = node_process()
-    for transition in (Transition.TRANSITION_ACTIVATE, Transition.TRANSITION_CONFIGURE,
-                       Transition.TRANSITION_CLEANUP, 99):
-        assert not transit(peer, transition)
-        assert state(peer) == State.PRIMARY_STATE_ACTIVE
-    assert not peer.call(
-        ChangeState, '/actuator/change_state', transition=Transition(label='no_such')).success
-    assert state(peer) == State.PRIMARY_STATE_ACTIVE
-    assert node.end()[0] == 0
 
 
 @pytest.mark.parametrize('assignment, culprit', [
@@ -171,6 +218,25 @@ def test_a_broken_method_stops_the_outputs_and_is_named(node_process, peer):
     assert transit(peer, Transition.TRANSITION_CONFIGURE)
     assert transit(peer, Transition.TRANSITION_ACTIVATE)
     assert node.end()[0] == 0
+
+
+def test_a_recording_that_is_removed_costs_only_the_recording(node_process, peer):
+    node = node_process()
+    heard = peer.hear(DiagnosticArray, '/diagnostics')
+    states = peer.hear(JointState, '/joint_states')
+    shutil.rmtree(node.recording)
+    assert await_message(peer, heard, 'Recorder', str(node.recording)).level == ERROR
+    count = len(states)
+    peer.until(lambda: len(states) > count + 100)
+    assert transit(peer, Transition.TRANSITION_DEACTIVATE)
+    assert transit(peer, Transition.TRANSITION_CLEANUP)
+    assert state(peer) == State.PRIMARY_STATE_UNCONFIGURED
+    assert f'{node.recording} is not complete' in node.text
+    assert transit(peer, Transition.TRANSITION_CONFIGURE)
+    assert transit(peer, Transition.TRANSITION_ACTIVATE)
+    assert node.end()[0] == 0
+    assert load_recording(node.recording).finished
+    assert 'Traceback' not in node.text
 
 
 @pytest.mark.parametrize('text, words', [
