@@ -13,10 +13,9 @@ from hydra_actuator.errors import Failure, InputError
 from hydra_actuator.ros import statuses
 from hydra_actuator.ros.declare import ParameterDoor
 from hydra_actuator.ros.diagnostics import DiagnosticsThread, Reports
-from hydra_actuator.ros.guard import answered, log_traceback, transition
+from hydra_actuator.ros.guard import guard_services, log_traceback, transition
 from hydra_actuator.ros.rig import Rig
 from hydra_actuator.ros.services import Services
-from lifecycle_msgs.srv import ChangeState
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 
 SUCCESS = TransitionCallbackReturn.SUCCESS
@@ -38,6 +37,8 @@ class ActuatorNode(LifecycleNode):
         self.rig: Rig | None = None
         self._active = False
         self._state_name = 'unconfigured'
+        # Lifecycle and parameters; invalid requests come from anyone.
+        guard_services(self)
         self.door = ParameterDoor(self)
         self.door.is_active = lambda: self._active
         self.door.on_change = self._change
@@ -45,7 +46,6 @@ class ActuatorNode(LifecycleNode):
         services = Services(self, lambda: self.rig, self._reports)
         services.is_active = lambda: self._active
         self._failed = self.create_guard_condition(self._stop_after_failure)
-        self._survive_invalid_transitions()
         self._diagnostics = DiagnosticsThread(
             self._reports, self._statuses,
             lambda error: self.get_logger().error(f'diagnostics: {error!r}'))
@@ -192,9 +192,3 @@ class ActuatorNode(LifecycleNode):
             return statuses.Status('Solver', oil.level, oil.message, values)
         return statuses.Status(
             'Solver', statuses.OK, 'paused' if paused else self._state_name, values)
-
-    def _survive_invalid_transitions(self) -> None:
-        """Have a transition that is not there answered, where rclpy 7 lets it end spin."""
-        for service in self.services:
-            if service.srv_type is ChangeState:
-                service.callback = answered(self, 'change_state', service.callback)

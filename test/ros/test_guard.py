@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Exceptions in transitions and services of a real node: logged, answered, survived."""
 
-from hydra_actuator.ros.guard import answered, transition
+from hydra_actuator.ros.guard import answered, guard_services, transition
 from lifecycle_msgs.srv import ChangeState, GetState
 import pytest
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.msg import ParameterValue
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 import rclpy
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
 SUCCESS, FAILURE, ERROR = (
@@ -19,10 +23,8 @@ class Fragile(LifecycleNode):
     def __init__(self, **settings):
         super().__init__('fragile', **settings)
         self.breaks = self.problem = ''
+        guard_services(self)
         self.create_service(Trigger, '~/ask', answered(self, 'ask', self._ask))
-        for service in self.services:
-            if service.srv_type is ChangeState:
-                service.callback = answered(self, 'change_state', service.callback)
 
     def _ask(self, request, response):
         raise KeyError('asked')
@@ -98,3 +100,17 @@ def test_a_raising_service_is_answered_with_its_reason(peer, fragile):
     answer = peer.call(Trigger, '/fragile/ask')
     assert (answer.success, answer.message) == (False, "KeyError('asked')")
     assert rclpy.ok(context=peer.node.context)
+
+
+def test_a_parameter_of_a_type_that_is_none_is_refused(peer, fragile):
+    fragile.declare_parameter('known', 1.0)
+    strange = ParameterMessage(name='known', value=ParameterValue(type=99))
+    good = Parameter('known', value=2.0).to_parameter_msg()
+    answer = peer.call(
+        SetParametersAtomically, '/fragile/set_parameters_atomically', parameters=[good, strange])
+    assert not answer.result.successful
+    assert '99' in answer.result.reason
+    assert fragile.get_parameter('known').value == 1.0
+    answer = peer.call(SetParameters, '/fragile/set_parameters', parameters=[good, strange, good])
+    assert [one.successful for one in answer.results] == [True, False, False]
+    assert fragile.get_parameter('known').value == 2.0
