@@ -79,7 +79,7 @@ class Service:
         executor.add_node(node)
         self._executor = executor
         if not self._stopping.is_set():
-            node.autostart()
+            node.autostart(self._stopping.is_set)
         while not self._stopping.is_set():
             try:
                 executor.spin_once(timeout_sec=0.5)

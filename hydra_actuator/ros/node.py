@@ -7,7 +7,7 @@ ActuatorNode, a managed lifecycle node: wiring only.
                                                            outputs stop, back to unconfigured
 """
 
-import gc
+from collections.abc import Callable
 
 from hydra_actuator.errors import Failure, InputError
 from hydra_actuator.ros import statuses
@@ -53,11 +53,11 @@ class ActuatorNode(LifecycleNode):
         for reason in self.door.refusals.values():
             self.get_logger().error(reason)
 
-    def autostart(self) -> bool:
+    def autostart(self, stopping: Callable[[], bool] = lambda: False) -> bool:
         """Configure and activate if the parameter says so; tell whether the node is active."""
-        if not self.get_parameter('autostart').value:
+        if not self.get_parameter('autostart').value or self.trigger_configure() != SUCCESS:
             return False
-        return self.trigger_configure() == SUCCESS and self.trigger_activate() == SUCCESS
+        return not stopping() and self.trigger_activate() == SUCCESS
 
     def close(self) -> None:
         """Stop the solver, close the recording, fall silent, give everything up."""
@@ -78,9 +78,6 @@ class ActuatorNode(LifecycleNode):
             return FAILURE
         finally:
             self._enter('unconfigured' if self.rig is None else 'inactive')
-        # A full collection would stop all threads for tens of milliseconds.
-        gc.collect()
-        gc.freeze()
         return SUCCESS
 
     @transition(ERROR)
@@ -142,7 +139,6 @@ class ActuatorNode(LifecycleNode):
         self.rig = None
         if not rig.close():
             self.get_logger().error(f'{rig.recorder.path} is not complete')
-        gc.unfreeze()
 
     def _change(self, changes: dict[str, object]) -> None:
         """Take accepted parameters while there is a rig; others wait for the next configure."""

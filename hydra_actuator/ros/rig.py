@@ -10,6 +10,7 @@ What a configured node has: actuator, plant, topics, recording; made whole, take
 """
 
 from collections.abc import Callable
+import gc
 import time
 
 from hydra_actuator.actuator import Actuator
@@ -61,6 +62,10 @@ class Rig:
         self._on_failure = on_failure
         self.actuator = Actuator(parameters)
         self._build_plant()
+        # A full collection would stop all threads for tens of milliseconds. What is made from
+        # here on is little, and a recording that is open should have to wait for nothing.
+        gc.collect()
+        gc.freeze()
         self.topics = ActuatorTopics(
             node.get_fully_qualified_name(), parameters['sections.names'])
         for attribute, name in reports.topics.items():
@@ -227,6 +232,7 @@ class Rig:
         self.recorder.put(topic, self.clock.log_time(received), sent, data)
 
     def _disconnect(self) -> None:
+        gc.unfreeze()
         self.clock.disconnect()
         self.inbox.destroy()
         self._publishers.destroy()
