@@ -18,7 +18,7 @@ from hydra_actuator.errors import InputError
 from hydra_actuator.ros.stopping import end_waiting, take_signals, wait_for_signal
 
 # Time [s] that the serving thread has to end after a signal.
-PATIENCE = 1.5
+PATIENCE = 1.2
 
 
 class Service:
