@@ -7,16 +7,15 @@ and load force [N].
 """
 
 from collections.abc import Callable
-import csv
 from dataclasses import dataclass
 import math
 from pathlib import Path
 
+from hydra_actuator.csv_files import number, read_csv, short
 from hydra_actuator.errors import InputError
 import numpy as np
 
 Signal = Callable[[np.ndarray], np.ndarray]
-LONGEST_QUOTE = 40
 
 
 def both_spools(spool: np.ndarray, load_force: np.ndarray | float = 0.0) -> np.ndarray:
@@ -107,22 +106,13 @@ def read_table(path: str | Path, hold: bool = False) -> Table:
     Raises InputError naming file, line and limit for anything else.
     """
     path = Path(path)
-    try:
-        with path.open(newline='', encoding='utf-8-sig') as file:
-            rows = list(csv.reader(file))
-    except OSError as error:
-        raise InputError(f'{path} cannot be read: {error.strerror or error}') from None
-    except (UnicodeDecodeError, csv.Error):
-        raise InputError(f'{path} cannot be read: it is no CSV text') from None
-    if not rows:
-        raise InputError(f'{path} is empty; it needs the header time,spool and rows')
-    header = [name.strip() for name in rows[0]]
+    rows = read_csv(path, 'time,spool')
+    header = [name.strip() for name in rows[0][1]]
     if header not in (['time', 'spool'], ['time', 'spool', 'load_force']):
         raise InputError(
-            f'{path}: header {_short(",".join(header))} is neither time,spool nor '
+            f'{path}: header {short(",".join(header))} is neither time,spool nor '
             'time,spool,load_force')
-    values = [_numbers(path, line, row, header)
-              for line, row in enumerate(rows[1:], 2) if any(cell.strip() for cell in row)]
+    values = [_numbers(path, line, row, header) for line, row in rows[1:]]
     if not values:
         raise InputError(f'{path} has no rows below its header')
     table = np.array([numbers for _, numbers in values])
@@ -136,24 +126,12 @@ def read_table(path: str | Path, hold: bool = False) -> Table:
 def _numbers(path: Path, line: int, row: list[str], header: list[str]) -> tuple[int, list[float]]:
     if len(row) != len(header):
         raise InputError(f'{path}, line {line}: {len(row)} values for {len(header)} columns')
-    numbers = []
-    for name, cell in zip(header, row):
-        try:
-            # float() takes 1_000, which in a file is more likely a slip.
-            number = float(cell.replace('_', '?'))
-        except ValueError:
-            raise InputError(f'{path}, line {line}: {name} {_short(cell)} is not a number'
-                             ) from None
-        if not math.isfinite(number):
-            raise InputError(f'{path}, line {line}: {name} {_short(cell)} is not finite')
-        numbers.append(number)
+    try:
+        numbers = [number(cell, name) for name, cell in zip(header, row)]
+    except InputError as error:
+        raise InputError(f'{path}, line {line}: {error}') from None
     if not -1.0 <= numbers[1] <= 1.0:
         raise InputError(f'{path}, line {line}: spool {numbers[1]:g} is not within -1 to 1')
     if numbers[0] < 0.0:
         raise InputError(f'{path}, line {line}: time {numbers[0]:g} s is before 0')
     return line, numbers
-
-
-def _short(text: str) -> str:
-    """Return a text in quotes, cut to what a message can hold."""
-    return repr(text if len(text) <= LONGEST_QUOTE else f'{text[:LONGEST_QUOTE]}...')
