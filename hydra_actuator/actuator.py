@@ -6,13 +6,13 @@ The actuator: parameters, a state, and the call that moves it. No ROS needed.
     state = Actuator().advance(0.1, spool=0.5)
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
 import math
 
+from hydra_actuator.actuator_state import ActuatorState, Cavities
 from hydra_actuator.assembly import (
     INPUTS,
     LOAD_FORCE,
-    oil,
     set_supply_pressure,
     SPOOL_1,
     SPOOL_2,
@@ -20,54 +20,22 @@ from hydra_actuator.assembly import (
 )
 from hydra_actuator.channels import Channels, DOMAINS
 from hydra_actuator.core.advance import advance
-from hydra_actuator.core.observe import NOT_A_NUMBER, observe, read_field, TOO_FAST
+from hydra_actuator.core.observe import observe, read_field
 from hydra_actuator.equilibrium import start
-from hydra_actuator.errors import Failure
+from hydra_actuator.faults import Faults
+from hydra_actuator.faults.faults import Change
 from hydra_actuator.geometry import section_positions, sections
 from hydra_actuator.kernels import warm_kernels
+from hydra_actuator.limits import broken_limit, SolverError
 from hydra_actuator.parameters import Parameters
+from hydra_actuator.plant_faults import air_fraction, apply_plant_faults, set_air
+from hydra_actuator.supply import Supply
 import numpy as np
 
 # Of absolute less vapour pressure [Pa]: without gas it can be below 0.
 TINY = 1e-6
 # What counts as below vacuum [Pa]: 0, less what rounding leaves.
 VACUUM = -1.0
-
-
-class SolverError(Failure):
-    """A condition broke the method; the message names it and its place."""
-
-
-@dataclass(frozen=True)
-class ActuatorState:
-    """
-    What the actuator shows at one instant.
-
-    time [s], position [m], velocity [m/s], effort [N] (hydraulic force), spool_position [m]
-    (one per spool), pressure [Pa, absolute] and flow_velocity [m/s] by section. With cavitation
-    cavity_volume [m^3] of the whole streamline and void_fraction by section, else 0; see
-    hydra_actuator.core.boiling.
-    """
-
-    time: float
-    position: float
-    velocity: float
-    effort: float
-    spool_position: tuple[float, ...]
-    pressure: dict[str, float]
-    flow_velocity: dict[str, float]
-    cavity_volume: float
-    void_fraction: dict[str, float]
-
-
-@dataclass(frozen=True)
-class Cavities:
-    """Cavities open now, opened and collapsed since the start, largest volume [m^3] of all."""
-
-    open: int
-    opened: int
-    collapsed: int
-    largest: float
 
 
 class Actuator:
@@ -84,6 +52,8 @@ class Actuator:
         self.channels = Channels(p['sections.names'], p['valve.spools'])
         self.period = p['timing.period']
         self.row = self.channels.empty_row()
+        self.faults = Faults(p)
+        self.supply = Supply(p['supply.pressure'], p['tank.pressure'], self.period)
         self._sections = sections(p)
         self._ambient = p['ambient_pressure']
         self._passes = (0,) * p['solver.iterations']
@@ -94,7 +64,11 @@ class Actuator:
         self._make_ready()
 
     def reset(self) -> None:
-        """Return to the initial state: commands zero, simulated time zero."""
+        """
+        Return to the initial state: commands zero, simulated time zero.
+
+        Faults stay, the script begins anew.
+        """
         self._model, self._state = start(self.parameters)
         self.step_time = self._model.step_time
         self.steps_per_period = round(self.period / self.step_time)
@@ -103,10 +77,23 @@ class Actuator:
         self._inputs[:] = self._table[0]
         self._schedule = (self._times, self._table, True)
         self._vacuum_ticks = 0
+        self.supply.begin()
+        self.faults.restart()
+        self.faults.follow(0.0)
+        self._apply_faults()
 
     def _make_ready(self) -> None:
+        self._warm()
+        self.faults.air_may_come = self.parameters['fluid.cavitation'] or self.faults.enabled
+        if self.faults.enabled and not self.parameters['fluid.cavitation']:
+            # Air may get into the oil, or out again, which another kernel solves.
+            self._model = set_air(self._model, self._state, 0.0 if self._model.gas else 1e-6)
+            self._warm()
+            self._apply_faults()
+
+    def _warm(self) -> None:
         with warm_kernels(len(self._passes), not self._model.extras):
-            self._run(self._schedule, 0)
+            self._advance(self._schedule, 0)
             self._observe()
             self.read_field(np.empty((len(self.field_labels), 2), np.float32))
 
@@ -210,26 +197,38 @@ class Actuator:
 
     def _void_fractions(self) -> np.ndarray:
         """Return the gas by volume at each section."""
-        gas, model = oil(self.parameters), self._model
+        fraction, model = air_fraction(self.parameters, self.faults.active), self._model
         star = self.row[self.channels.pressure] - self._ambient + model.floor
-        return gas.air_fraction * model.floor / np.maximum(star, TINY)
+        return fraction * model.floor / np.maximum(star, TINY)
 
     def status_message(self, code: int) -> str:
         """Return what a status code of this actuator means, with place and limit."""
-        _, domain, value = self._state.fault
-        place = DOMAINS[int(domain)]
-        if code == NOT_A_NUMBER:
-            return f'NaN in {place} at {self.time:.6f} s'
-        if code == TOO_FAST:
-            return (f'|u|/c = {value:.4g} in {place} at {self.time:.6f} s exceeds '
-                    f'solver.max_mach {self._model.max_mach:g}')
-        return (f'{place} is {value:.4g} m long at {self.time:.6f} s, shorter than one cell of '
-                f'{self._model.spacing[int(domain)]:.4g} m; raise solver.cells')
+        return broken_limit(self._model, self._state, code, self.time)
 
     def set_supply_pressure(self, pressure: float) -> None:
         """Set the supply pressure [Pa, gauge] from the next step on."""
-        set_supply_pressure(self._model.source, pressure, self._model.wave_speed[0],
-                            self._model.bulk_modulus[0])
+        self.supply.pressure = pressure
+        self._give_supply(self.supply.give())
+
+    def set_faults(self, changes: Mapping[str, object]) -> None:
+        """
+        Set faults by parameter, `{'fault.leakage': 2e-12}`, from the next step on.
+
+        0 or False ends one. Those of instruments do not touch the state, which is the truth.
+        Raises ParameterError, and then sets none; `fault.enabled` must be true.
+        """
+        self.take_faults(self.faults.check(changes))
+
+    def take_faults(self, change: Change) -> None:
+        """Set faults that `faults.check` has passed."""
+        self.faults.take(change)
+        self.faults.follow(self._fault_time)
+        self._apply_faults()
+
+    def clear_faults(self) -> None:
+        """End all faults and the script."""
+        self.faults.clear()
+        self._apply_faults()
 
     @property
     def field_labels(self) -> list[str]:
@@ -259,8 +258,39 @@ class Actuator:
         read_field(self._model, self._state, self._ambient, out)
 
     def _run(self, schedule: tuple, steps: int) -> int:
+        """Advance; at whole periods the supply moves and the fault script acts."""
+        if not steps or (self.supply.resting and self.faults.next_time == math.inf):
+            return self._advance(schedule, steps)
+        code = 0
+        while steps and not code:
+            done = int(self._state.step[0]) % self.steps_per_period
+            if not done:
+                self._give_supply(self.supply.tick())
+            part = min(steps, self.steps_per_period - done)
+            code = self._advance(schedule, part)
+            steps -= part
+            if done + part == self.steps_per_period and self.faults.follow(self._fault_time):
+                self._apply_faults()
+        return code
+
+    def _advance(self, schedule: tuple, steps: int) -> int:
         return advance(self._model, self._state, self._passes, schedule, self._inputs, steps,
                        self.steps_per_period)
+
+    @property
+    def _fault_time(self) -> float:
+        """Simulated time [s] with what rounding leaves of a row's time in a script."""
+        return self.time + 0.5 * self.step_time
+
+    def _give_supply(self, pressure: float | None) -> None:
+        if pressure is not None:
+            set_supply_pressure(self._model.source, pressure, self._model.wave_speed[0],
+                                self._model.bulk_modulus[0])
+
+    def _apply_faults(self) -> None:
+        active = self.faults.active
+        self.supply.loss = active.get('fault.supply_loss', 0.0)
+        self._model = apply_plant_faults(self.parameters, active, self._model, self._state)
 
     def _observe(self) -> None:
         observe(self._model, self._state, self._sections, self._ambient, self._inputs, self.row)

@@ -21,10 +21,11 @@ from typing import NamedTuple, Protocol
 from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.channels import Channels
 from hydra_actuator.errors import InputError
+from hydra_actuator.faults.announcements import Announcement, Announcer, NAME
 from hydra_actuator.instruments import Instruments
 from hydra_actuator.interruption import Interruption
 from hydra_actuator.parameters import Parameters
-from hydra_actuator.recording.messages import float64, float64_multi_array
+from hydra_actuator.recording.messages import diagnostic_array, float64, float64_multi_array
 from hydra_actuator.recording.reader import load_recording
 from hydra_actuator.recording.run_data import run_data
 from hydra_actuator.recording.tick import AppliedEncoder, FieldEncoder, TickEncoder
@@ -126,6 +127,7 @@ class _Sink(Protocol):
     """Where outputs go: the row as it is read, the command [spool 1, spool 2, load force]."""
 
     def take(self, due: _Due, reading: list[float], command: list[float]) -> None: ...
+    def announce(self, news: list[Announcement]) -> None: ...
     def close(self) -> None: ...
 
 
@@ -137,7 +139,8 @@ class _Run:
         self._actuator, self._command = actuator, command
         self.instruments = Instruments(
             actuator.channels, actuator.step_time, actuator.steps_per_period)
-        self.instruments.set(p, {})
+        self._edition = -1
+        self._announcer = Announcer()
         own = (p['publish.rate'], p['publish.pressure_rate']) if rate is None else (rate, rate)
         rates = (1.0 / actuator.period, *own, p['publish.sections_rate'],
                  p['recording.field_rate'])
@@ -176,7 +179,11 @@ class _Run:
         return commands
 
     def _output(self, step: int, sink: _Sink) -> None:
-        due = _Due(*(clock.due(step) for clock in self._clocks))
+        faults, due = self._actuator.faults, _Due(*(clock.due(step) for clock in self._clocks))
+        if faults.edition != self._edition:
+            self._edition = faults.edition
+            self.instruments.set(self._actuator.parameters, faults.active, faults.enabled)
+            sink.announce(self._announcer.news(faults.active))
         sink.take(due, self.instruments.read(self._actuator.row.tolist()), self._now)
 
 
@@ -190,6 +197,9 @@ class _Rows:
         """Keep the row if a state is due."""
         if due.states:
             self.rows.append(reading)
+
+    def announce(self, news: list[Announcement]) -> None:
+        """Keep nothing of it."""
 
     def close(self) -> None:
         """Do nothing."""
@@ -239,6 +249,14 @@ class _Recording:
             actuator.read_field(self._field)
             messages.append((topics.field, self._field_encoder.encode(time, self._field)))
         self._writer.write_batch([(topic, stamp, stamp, data) for topic, data in messages])
+
+    def announce(self, news: list[Announcement]) -> None:
+        """Write an event for each fault that has begun, changed or ended."""
+        stamp = round(self._actuator.time * 1e9)
+        self._writer.write_batch([
+            (self._topics.events, stamp, stamp, diagnostic_array(
+                stamp, [(level, f'{NODE}: {NAME}', message, NODE, values)]))
+            for level, message, values in news])
 
     def _command_messages(self, tick: int, command: list[float]) -> list[tuple[str, bytes]]:
         """Return what is applied, and those of the commands that are other than before."""

@@ -299,3 +299,32 @@ def test_readings_do_not_depend_on_the_rate_at_which_they_are_written():
     fast = simulate(parameters, SINE, 0.02, rate=8000.0).rows
     times = np.isin(fast[:, Channels.TIME], slow[:, Channels.TIME])
     assert fast[times].tolist() == slow.tolist()
+
+
+def test_a_fault_script_acts_in_an_offline_run_and_is_told_in_its_recording(tmp_path):
+    script = tmp_path / 'script.csv'
+    script.write_text('time,parameter,value\n0.005,fault.pressure.A.off,true\n'
+                      '0.01,fault.pressure.A.off,false\n')
+    parameters = QUICK.replace({'fault.enabled': True, 'fault.script': str(script)})
+    simulate(parameters, SINE, 0.015, tmp_path / 'run')
+    recording = load_recording(tmp_path / 'run')
+    pressure = recording.series('/actuator/pressure/A').numbers()[:, 0]
+    assert np.flatnonzero(np.isnan(pressure)).tolist() == [5, 6, 7, 8, 9]
+    assert len(recording.series('/actuator/true_joint_states')) == 5
+    told = [(message['header']['stamp']['nanosec'], status['level'], status['name'],
+             status['message']) for message in recording.messages('/actuator/events')
+            for status in message['status']]
+    assert told == [
+        (5_000_000, 1, '/actuator: Faults', 'fault.pressure.A.off = true'),
+        (10_000_000, 0, '/actuator: Faults', 'fault.pressure.A.off ended')]
+    plain = simulate(QUICK, SINE, 0.015).rows
+    assert recording.rows[:, Channels.POSITION].tolist() == plain[:, Channels.POSITION].tolist()
+
+
+def test_a_bad_fault_script_is_refused_before_anything_is_written(tmp_path):
+    script = tmp_path / 'script.csv'
+    script.write_text('time,parameter,value\n1,fault.leekage,1e-12\n')
+    parameters = QUICK.replace({'fault.enabled': True, 'fault.script': str(script)})
+    with pytest.raises(InputError, match=r'script\.csv, line 2: unknown parameter .*leekage'):
+        simulate(parameters, SINE, 0.01, tmp_path / 'run')
+    assert not (tmp_path / 'run').exists()

@@ -22,10 +22,12 @@ JUNCTION = np.dtype([
     ('kind', np.int64), ('end', np.int64, 4), ('input', np.int64),
     ('coefficient', np.float64), ('leakage', np.float64)], align=True)
 
+# `null_shift` [m], `command_lost` and `stuck` (0, 1) are faults, changed only between calls.
 VALVE_PARAMETERS = np.dtype([
     ('flow_gain', np.float64, 4), ('overlap', np.float64, 4), ('leakage', np.float64),
     ('stroke', np.float64), ('natural_frequency', np.float64), ('slew_rate', np.float64),
-    ('transition', np.float64, 4), ('step_time', np.float64)], align=True)
+    ('transition', np.float64, 4), ('step_time', np.float64),
+    ('null_shift', np.float64), ('command_lost', np.int64), ('stuck', np.int64)], align=True)
 
 PISTON_PARAMETERS = np.dtype([
     ('mass', np.float64), ('stiffness', np.float64), ('viscous', np.float64),

@@ -62,7 +62,14 @@ def move_spools(model, state, inputs):
         if junction.kind == VALVE:
             valve = model.valve[0]
             for k in range(2):
+                if valve.stuck == 1:
+                    state.spool[2 * k + 1] = 0.0
+                    continue
                 command = inputs[junction.input + k] * valve.stroke
+                if valve.command_lost == 1:
+                    command = 0.0
+                if valve.null_shift != 0.0:
+                    command += valve.null_shift
                 state.spool[2 * k], state.spool[2 * k + 1] = move_spool(
                     valve, state.spool[2 * k], state.spool[2 * k + 1], command)
             edge_coefficients(valve, state.spool[0], state.spool[2], state.edge_coefficient)

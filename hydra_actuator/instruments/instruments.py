@@ -28,8 +28,9 @@ WHOLE = 1e-6
 
 class Instruments:
     """
-    Reads rows in the order of time; an earlier time is a new beginning.
+    Reads rows in the order of time.
 
+    An earlier time is a new beginning; the same row again reads as before.
     steps_per_period: solver steps from one tick to the next, of `step_time` [s] each.
     """
 
@@ -60,6 +61,7 @@ class Instruments:
         self.variance = new.variance
         self.acting = bool(self._affected.any())
         self._remembering = remember or self.acting
+        self._truth_row: list[float] | None = None
         period = self._step_time * self._steps_per_period
         ticks = new.delay / period
         self._delay = np.where(abs(ticks - np.round(ticks)) < WHOLE, np.round(ticks), ticks)
@@ -81,6 +83,8 @@ class Instruments:
         if not self._remembering:
             return row
         step = round(row[Channels.TIME] / self._step_time)
+        if step == self._step and row == self._truth_row:
+            return self._read_row
         truth = np.array(row)[self._columns]
         if step <= self._step or self._step < 0:
             self._begin()
@@ -95,7 +99,9 @@ class Instruments:
             reading = self._reading(lagging, truth, step)
         if at_tick:
             self._at_last_tick = (step, late, lagging, reading)
-        return self._entered(row, reading, step) if self.acting else row
+        self._truth_row = row
+        self._read_row = self._entered(row, reading, step) if self.acting else row
+        return self._read_row
 
     def _begin(self) -> None:
         """Forget what was: this is the first row."""

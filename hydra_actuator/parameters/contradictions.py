@@ -26,7 +26,7 @@ _MOST_COMPRESSION = 0.5
 def refuse_contradictions(values: Mapping[str, Value]) -> None:
     """Raise ParameterError on the first contradiction between complete, singly valid values."""
     for check in (_fluid, _supply, _lines, _valve, _cylinder, _initial, _compression, mesh,
-                  friction, _sections, _joints, _timing):
+                  friction, _sections, _joints, _timing, _faults):
         for contradiction in check(values):
             raise ParameterError(contradiction)
 
@@ -135,6 +135,14 @@ def _sections(values: Mapping[str, Value]) -> Iterator[str]:
                 f'sections.positions: {position} m lies beyond the tank at {length:.6g} m, the '
                 'sum of all lengths'
             )
+
+
+def _faults(values: Mapping[str, Value]) -> Iterator[str]:
+    if values['fault.enabled']:
+        return
+    for name, value in values.items():
+        if value and name.startswith('fault.'):
+            yield f'{name} = {str(value).lower()} needs fault.enabled = true'
 
 
 def _joints(values: Mapping[str, Value]) -> Iterator[str]:

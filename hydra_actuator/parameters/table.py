@@ -17,6 +17,7 @@ from hydra_actuator.parameters.table_fault import FAULTS, pressure_faults
 from hydra_actuator.parameters.table_hydraulics import HYDRAULICS
 from hydra_actuator.parameters.table_running import RUNNING
 
+_PRESSURE_FAULT = 'fault.pressure.'
 _ROS_NAMES = ('use_sim_time', 'start_type_description_service')
 _ROS_GROUPS = ('qos_overrides.',)
 
@@ -39,6 +40,14 @@ def belongs_to_ros(name: str) -> bool:
 
 def unknown(name: str, table: Mapping[str, Parameter]) -> ParameterError:
     """Return the error for a name that is not in the table, with the nearest name that is."""
+    if name.startswith(_PRESSURE_FAULT):
+        sections = dict.fromkeys(
+            known.split('.')[2] for known in table if known.startswith(_PRESSURE_FAULT))
+        section = name.removeprefix(_PRESSURE_FAULT).partition('.')[0]
+        if section not in sections:
+            known = ', '.join(sections) or 'none'
+            return ParameterError(
+                f'unknown parameter {name!r}: sections.names has no {section!r}, but {known}')
     last = name.rpartition('.')[2]
     same_last = [known for known in table if known.rpartition('.')[2] == last][:3]
     near = get_close_matches(name, table, n=1, cutoff=0.6)

@@ -18,11 +18,12 @@ QUANTITIES = {'position': 'm', 'velocity': 'm/s', 'effort': 'N', 'spool': 'm'}
 PLANT_FAULTS = group(
     'fault',
     boolean('enabled', False, 'let faults act at all'),
-    string('script', '', 'CSV file time,parameter,value; empty: none'),
+    string('script', '', 'CSV file time,parameter,value, in simulated time; empty: none'),
     boolean('valve_stuck', False, 'the spool stays where it is'),
-    double('null_shift', 0.0, '1', (-1.0, 1.0), 'added to the spool, as part of its stroke'),
-    boolean('command_lost', False, 'no command reaches the valve'),
-    double('supply_loss', 0.0, '1', (0.0, 1.0), 'part of the supply pressure that is lost'),
+    double('null_shift', 0.0, '1', (-1.0, 1.0), 'added to the command, as part of the stroke'),
+    boolean('command_lost', False, 'no command reaches the valve: it centres'),
+    double('supply_loss', 0.0, '1', (0.0, 1.0),
+           'part of the supply pressure above the tank that is lost, over 50 ms'),
     double('air_fraction', 0.0, '1', (0.0, 0.2), 'free gas added to the oil, by volume'),
     double('leakage', 0.0, 'm^3/(s Pa)', (0.0, 1e-6), 'added past the piston'),
     live=True,
@@ -39,7 +40,7 @@ def signal_faults(quantity: str, unit: str) -> tuple[Parameter, ...]:
         double('noise', 0.0, unit, (0.0, 1e9), 'standard deviation added'),
         double('delay', 0.0, 's', (0.0, 10.0), 'added to the reading'),
         double('time_constant', 0.0, 's', (0.0, 100.0), 'of a first-order lag'),
-        double('dropout', 0.0, '1', (0.0, 1.0), 'probability that a reading is missing'),
+        double('dropout', 0.0, '1', (0.0, 1.0), 'probability that a reading is missing: NaN'),
         live=True,
     )
 

@@ -12,6 +12,8 @@ import array
 from collections.abc import Callable, Mapping
 import sys
 
+from hydra_actuator.faults import read_script
+from hydra_actuator.faults.script import is_fault
 from hydra_actuator.parameters import (
     belongs_to_ros,
     definitions,
@@ -39,6 +41,7 @@ TYPES = {
     'integer_array': RosParameter.Type.INTEGER_ARRAY,
     'string_array': RosParameter.Type.STRING_ARRAY,
 }
+SCRIPT = 'fault.script'
 SIMULATED_TIME = 'use_sim_time'
 MODE = 'timing.mode'
 _FOLLOW_CLOCK = (
@@ -99,13 +102,15 @@ class ParameterDoor:
     All ways by which a parameter enters the node.
 
     `is_active` tells whether only live parameters may change now; `on_change` is given the new
-    parameters after a change was accepted, with the definitions and values of what changed.
+    parameters after a change was accepted, with the definitions and values of what changed;
+    `further_check` raises on what is sound but cannot be now.
     """
 
     def __init__(self, node: Node):
         self.refusals: dict[str, str] = {}
         self.is_active: Callable[[], bool] = lambda: False
         self.on_change: Callable[[dict[str, object]], None] = lambda changes: None
+        self.further_check: Callable[[dict[str, object]], None] = lambda changes: None
         self._node = node
         self._declare_all()
         node.add_pre_set_parameters_callback(self._take_integers_for_doubles)
@@ -122,6 +127,13 @@ class ParameterDoor:
         for reason in self.refusals.values():
             raise ParameterError(reason)
         return Parameters(self._values())
+
+    def forget_faults(self) -> None:
+        """Set all faults and the script to none."""
+        table = self.table
+        self._node.set_parameters_atomically([
+            to_ros(table[name], table[name].default) for name, value in self._values().items()
+            if value and (is_fault(name) or name == SCRIPT)])
 
     def _values(self) -> dict[str, object]:
         return {name: self._value(name) for name in self.table if self._node.has_parameter(name)}
@@ -195,6 +207,9 @@ class ParameterDoor:
                 return f'{name}: not while the node is active; deactivate it first'
         if own and self._sound():
             self._with(own)
+        if SCRIPT in own:
+            read_script(own[SCRIPT], table)
+        self.further_check(own)
         return ''
 
     def _simulated_realtime(self, changes: Mapping[str, object]) -> bool:

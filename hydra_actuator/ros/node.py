@@ -42,9 +42,11 @@ class ActuatorNode(LifecycleNode):
         self.door = ParameterDoor(self)
         self.door.is_active = lambda: self._active
         self.door.on_change = self._change
+        self.door.further_check = lambda changes: self.rig and self.rig.check(changes)
         self._reports = Reports(self)
         services = Services(self, lambda: self.rig, self._reports)
         services.is_active = lambda: self._active
+        services.forget_faults = self.door.forget_faults
         self._failed = self.create_guard_condition(self._stop_after_failure)
         self._diagnostics = DiagnosticsThread(
             self._reports, self._statuses,

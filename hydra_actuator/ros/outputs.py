@@ -47,7 +47,7 @@ class Outputs:
     Turns ticks and frames into messages.
 
     publishers: a publish function by topic; a topic without one is recorded only. on_error
-    is told what happened if the thread dies.
+    is told what happened if the thread dies, on_faults the faults at work when they may be others.
     """
 
     def __init__(
@@ -56,6 +56,7 @@ class Outputs:
     ):
         self.instruments = instruments
         self.on_error: Callable[[BaseException], None] = lambda error: None
+        self.on_faults: Callable[[Mapping[str, object]], None] = lambda active: None
         self.after_batch: Callable[[], None] = lambda: None
         self.on_restart: Callable[[], None] = lambda: None
         self.encoder: TickEncoder | None = None
@@ -71,9 +72,12 @@ class Outputs:
         self._field: FieldEncoder | None = None
         self._worker = Worker('outputs', self._run)
 
-    def set_instruments(self, number: int, settings: tuple) -> None:
-        """Have rows of that number and later be read as Instruments.set takes it; any thread."""
-        self._coming.append((number, settings))
+    def set_instruments(
+        self, number: int, sensor: Mapping[str, object], faults: Mapping[str, object],
+        remember: bool,
+    ) -> None:
+        """Have rows of that number and later be read so, see Instruments.set; in any thread."""
+        self._coming.append((number, (sensor, faults, remember)))
 
     def encoder_for(self, joint_names: tuple[str, ...]) -> TickEncoder:
         """Return an encoder that names piston and spools so, to be put into `encoder`."""
@@ -176,7 +180,9 @@ class Outputs:
     def _set_instruments(self, number: int) -> None:
         """Set the instruments to what holds from this row on."""
         while self._coming and self._coming[0][0] <= number:
-            self.instruments.set(*self._coming.popleft()[1])
+            sensor, faults, remember = self._coming.popleft()[1]
+            self.instruments.set(sensor, faults, remember)
+            self.on_faults(faults)
 
     def _encode_inputs(self, tick: Tick) -> tuple[str, int, bytes]:
         """Return what the solver took, at the instant from which it held."""

@@ -18,7 +18,6 @@ from hydra_actuator.ros.clocks.source import Act, ClockSource, Grant, Inputs
 from hydra_actuator.ros.commands import CENTRED
 from hydra_actuator.ros.ring import Ring
 from hydra_actuator.ros.setpoint import Setpoint
-from hydra_actuator.ros.supply import Supply
 from hydra_actuator.ros.worker import Worker
 
 # Longest wait [s] for an order, beside a period.
@@ -31,7 +30,8 @@ class Plant:
     """
     Runs an actuator: `start`, `stop`, one `step` while stopped, orders at any time.
 
-    `failure` is '' or why it will not go on; `on_failure` is called in the plant's thread then.
+    `failure` is '' or why it will not go on; `on_failure` is called in the plant's thread then,
+    `on_faults` with the number of the first row of which other faults are true.
     """
 
     def __init__(
@@ -41,12 +41,10 @@ class Plant:
         """Take a clock whose period is one of the actuator's, or several."""
         self.failure = ''
         self.on_failure: Callable[[], None] = lambda: None
+        self.on_faults: Callable[[int], None] = lambda number: None
         self.prepare_thread: Callable[[], None] = lambda: None
         self.resets = 0
         self.enabled = True
-        parameters = actuator.parameters
-        self.supply = Supply(
-            parameters['supply.pressure'], parameters['tank.pressure'], actuator.period)
         self._actuator = actuator
         self._clock = clock
         self._setpoint = setpoint
@@ -59,6 +57,7 @@ class Plant:
         self._acts = {Act.SOLVE: self._solve, Act.RESET: self._reset, Act.REPEAT: self._repeat}
         self._stamp = 0
         self._rows = 0
+        self._edition = -1
         self._held = (*CENTRED, 0.0)
 
     @property
@@ -116,7 +115,7 @@ class Plant:
     def set_enabled(self, enabled: bool) -> bool:
         """Switch valve command and supply on, or centre the valve and turn the supply off."""
         def switch() -> None:
-            self.enabled = self.supply.on = enabled
+            self.enabled = self._actuator.supply.on = enabled
             self._setpoint.centre()
             self._held = self._inputs()
         return self.order(switch)
@@ -156,9 +155,6 @@ class Plant:
         held = self._held if grant.inputs is None else self._allowed(grant.inputs)
         tick = actuator.tick
         for _ in range(self._periods):
-            pressure = self.supply.tick()
-            if pressure is not None:
-                actuator.set_supply_pressure(pressure)
             code = actuator.tick_once(*held)
             if code:
                 self.failure = actuator.status_message(code)
@@ -169,15 +165,18 @@ class Plant:
 
     def _reset(self, grant: Grant) -> bool:
         """Return to the initial state, and show it; simulated time counts from there."""
+        supply = self._actuator.supply
+        pressure = supply.pressure
         self._actuator.reset()
         self._actuator.advance(0.0)
-        self.supply.forget()
+        supply.pressure = pressure
         self._setpoint.centre()
         self._held = self._inputs()
         self.resets += 1
         if self._clock.simulated:
             self._ring.is_read(_PATIENCE)
             self._rows = 0
+            self._edition = -1
         self._push(grant.stamp)
         self._was_reset.set()
         return True
@@ -192,6 +191,9 @@ class Plant:
     def _push(self, stamp: int, tick: int = 0, held: tuple[float, ...] | None = None) -> None:
         """Put the state as it is into the ring, and the field if it is due."""
         actuator, ring, count = self._actuator, self._ring, self._rows
+        if actuator.faults.edition != self._edition:
+            self._edition = actuator.faults.edition
+            self.on_faults(count)
         ring.push(count, stamp, tick, self._held if held is None else held, actuator.row)
         share = self._frames_per_tick
         if share and (not count or int(count * share) != int((count - 1) * share)):

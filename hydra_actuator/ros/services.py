@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The services of an active node: reset, step, pause, record, enable.
+The services of a node: reset, step, pause, record, clear_faults, enable.
 
 What a service cannot do now it refuses with the reason; it never changes the lifecycle state.
 """
@@ -20,14 +20,18 @@ class Services:
     """
     Offers the services, and does on the rig what they ask.
 
-    `rig` gives what the node has now: None while it is not configured.
+    `rig` gives what the node has now: None while it is not configured; `forget_faults` sets the
+    parameters of faults to none.
     """
 
     def __init__(self, node: Node, rig: Callable[[], Rig | None], reports: Reports):
         self.is_active: Callable[[], bool] = lambda: False
+        self.forget_faults: Callable[[], None] = lambda: None
         self._rig = rig
         self._reports = reports
-        for name, action in (('reset', self._reset), ('step', self._step)):
+        for name, action in (
+            ('reset', self._reset), ('step', self._step), ('clear_faults', self._clear_faults)
+        ):
             self._offer(node, Trigger, name, lambda request, action=action: action())
         for name, switch in (
             ('pause', self._pause), ('record', self._record), ('enable', self._enable)
@@ -88,10 +92,18 @@ class Services:
         complete = recorder.close()
         return complete, f'{recorder.path} is {"complete" if complete else "not complete"}'
 
+    def _clear_faults(self) -> tuple[bool, str]:
+        rig = self._rig()
+        if rig is not None and not rig.clear_faults():
+            return False, 'the solver did not get round to it'
+        self.forget_faults()
+        return True, 'no faults, no script'
+
     def _enable(self, enabled: bool) -> tuple[bool, str]:
-        if not self.is_active():
-            return False, 'not active'
-        if not self._rig().plant.set_enabled(enabled):
+        rig = self._rig()
+        if rig is None:
+            return False, 'not configured'
+        if not rig.plant.set_enabled(enabled):
             return False, 'the solver did not get round to it'
         state = 'enabled' if enabled else 'emergency stop: valve centred, supply off'
         self._reports.event(OK if enabled else WARN, 'Solver', state)

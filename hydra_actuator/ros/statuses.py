@@ -9,8 +9,10 @@ a warning for as long as `RECENT`, so that a listener at 1 Hz cannot fail to see
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 import time
+from types import MappingProxyType
 
 from hydra_actuator.actuator import Cavities
+from hydra_actuator.faults.announcements import NAME, standing
 from hydra_actuator.pacer import Pacer
 from hydra_actuator.ros.commanders import Commanders
 from hydra_actuator.ros.commands import CommandDesk
@@ -157,9 +159,10 @@ def oil(
     return Status('Solver', OK, '', values)
 
 
-def faults() -> Status:
-    """Return the faults at work: without `fault.enabled` there can be none."""
-    return Status('Faults', OK, 'no faults', {'enabled': 'false'})
+def faults(enabled: bool = False, active: Mapping[str, object] = MappingProxyType({})) -> Status:
+    """Return the faults at work, with their values."""
+    level, message, values = standing(enabled, active)
+    return Status(NAME, level, message, values)
 
 
 def idle(state: str) -> list[Status]:

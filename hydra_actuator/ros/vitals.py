@@ -46,7 +46,7 @@ class Vitals:
                 self._desk, self._setpoint, parameters['command.on_timeout'],
                 self._rejected.grew(self._desk.rejections), self._commanders),
             statuses.recorder(self._recorder),
-            statuses.faults(),
+            statuses.faults(self._actuator.faults.enabled, self._actuator.faults.active),
         ]
 
     def watched(self) -> list[Watched]:

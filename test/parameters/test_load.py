@@ -20,11 +20,12 @@ def file_with(folder, body, name='given.yaml'):
 
 @st.composite
 def single_changes(draw):
-    """Return one {name: value} that its own definition accepts."""
+    """Return one {name: value} that its own definition accepts; a fault with its switch."""
     one = draw(st.sampled_from([one for one in PARAMETERS.values() if not one.is_array]))
+    switch = {'fault.enabled': True} if one.name.startswith('fault.') else {}
     if one.choices:
         return {one.name: draw(st.sampled_from(one.choices))}
-    return {one.name: draw({
+    return {**switch, one.name: draw({
         'double': st.floats(one.minimum, one.maximum) if one.type == 'double' else None,
         'integer': st.integers(one.minimum, one.maximum) if one.type == 'integer' else None,
         'bool': st.booleans(),
@@ -82,11 +83,15 @@ def test_any_other_name_is_unknown(name):
 @pytest.mark.parametrize('misspelt, meant', [
     ('valve.strok', 'valve.stroke'), ('fluid.bulk_modulos', 'fluid.bulk_modulus'),
     ('supply.presure', 'supply.pressure'), ('timing.perod', 'timing.period'),
-    ('bulk_modulus', 'fluid.bulk_modulus'), ('fault.pressure.Z.stuck', 'fault.pressure.'),
-])
+    ('bulk_modulus', 'fluid.bulk_modulus'), ])
 def test_misspelt_name_is_answered_with_the_one_that_was_meant(misspelt, meant):
     with pytest.raises(ParameterError, match=f'did you mean .*{meant}'):
         load_parameters(overrides={misspelt: 1})
+
+
+def test_a_fault_of_a_section_that_is_not_there_is_answered_with_those_that_are():
+    with pytest.raises(ParameterError, match=r"'fault\.pressure\.Z\.stuck'.* no 'Z', but O, A"):
+        load_parameters(overrides={'fault.pressure.Z.stuck': True})
 
 
 @pytest.mark.parametrize('name', [
@@ -113,14 +118,16 @@ def test_file_to_blame_is_named(tmp_path):
 
 def test_section_names_decide_which_pressure_faults_there_are():
     named = {'sections.names': ['rod_end'], 'sections.positions': [1.2]}
-    parameters = load_parameters(overrides={**named, 'fault.pressure.rod_end.offset': 5})
+    parameters = load_parameters(overrides={
+        **named, 'fault.enabled': True, 'fault.pressure.rod_end.offset': 5})
     assert parameters['fault.pressure.rod_end.offset'] == 5.0
     assert 'fault.pressure.A.offset' not in parameters
     assert set(parameters) == set(definitions(('rod_end',)))
 
 
 def test_replacing_the_sections_drops_the_faults_of_lost_ones():
-    before = load_parameters(overrides={'fault.pressure.A.offset': 5.0})
+    before = load_parameters(overrides={
+        'fault.enabled': True, 'fault.pressure.A.offset': 5.0})
     assert 'fault.pressure.A.offset' not in before.replace({'sections.names': ['B']})
     assert before.replace({'sections.names': ['A']})['fault.pressure.A.offset'] == 5.0
 
@@ -149,7 +156,7 @@ def test_looking_up_a_misspelt_name_says_what_was_meant():
 
 
 @pytest.mark.parametrize('changes', [
-    {'fault.enabled': True}, {'recording.mode': 'snapshot'}, {'recording.split_size': 10**6},
+    {'recording.mode': 'snapshot'}, {'recording.split_size': 10**6},
 ])
 def test_option_this_version_does_not_have_is_refused_not_ignored(changes):
     (name,) = changes

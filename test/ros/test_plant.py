@@ -4,11 +4,14 @@
 import threading
 import time
 
+from hydra_actuator.faults import Faults
 from hydra_actuator.pacer import Pacer
+from hydra_actuator.parameters import Parameters
 from hydra_actuator.ros.clocks.paced import Paced
 from hydra_actuator.ros.plant import Plant
 from hydra_actuator.ros.ring import Ring
 from hydra_actuator.ros.setpoint import Setpoint
+from hydra_actuator.supply import Supply
 import numpy as np
 import pytest
 
@@ -20,9 +23,11 @@ class Counter:
     """An actuator whose row is its tick and what it was told; fails at a chosen tick."""
 
     period = PERIOD
-    parameters = {'supply.pressure': 20e6, 'tank.pressure': 0.0}
+    parameters = Parameters()
 
     def __init__(self, fails_at=None):
+        self.faults = Faults(self.parameters)
+        self.supply = Supply(20e6, 0.0, self.period)
         self.row = np.zeros(4)
         self.tick = 0
         self.supplies = []
@@ -34,14 +39,12 @@ class Counter:
 
     def tick_once(self, *inputs):
         self.tick += 1
+        self.supplies.append(self.supply.tick())
         self.row[:] = (self.tick, *inputs)
         return 3 if self.tick == self._fails_at else 0
 
     def status_message(self, code):
         return f'status {code}'
-
-    def set_supply_pressure(self, pressure):
-        self.supplies.append(pressure)
 
     def read_field(self, out):
         out[:] = self.tick
@@ -197,9 +200,9 @@ def test_disabled_the_valve_is_centred_and_the_supply_ramps_down():
     bench.setpoint.accept_load(4.0)
     assert bench.plant.set_enabled(False)
     bench.setpoint.accept((1.0, 1.0))
-    bench.until(lambda: bench.actuator.supplies[-1:] == [0.0])
+    bench.until(lambda: 0.0 in bench.actuator.supplies)
     assert bench.plant.set_enabled(True)
-    bench.until(lambda: bench.actuator.supplies[-1] == 20e6)
+    bench.until(lambda: 20e6 in bench.actuator.supplies)
     bench.plant.stop()
     bench.ticks += bench.ring.ticks()
     assert {tuple(tick.row[1:3]) for tick in bench.ticks} == {(0.0, 0.0)}

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What an actuator shows of itself at one instant."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class ActuatorState:
+    """
+    What the actuator shows at one instant.
+
+    time [s], position [m], velocity [m/s], effort [N] (hydraulic force), spool_position [m]
+    (one per spool), pressure [Pa, absolute] and flow_velocity [m/s] by section. With cavitation
+    cavity_volume [m^3] of the whole streamline and void_fraction by section, else 0; see
+    hydra_actuator.core.boiling.
+    """
+
+    time: float
+    position: float
+    velocity: float
+    effort: float
+    spool_position: tuple[float, ...]
+    pressure: dict[str, float]
+    flow_velocity: dict[str, float]
+    cavity_volume: float
+    void_fraction: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Cavities:
+    """Cavities open now, opened and collapsed since the start, largest volume [m^3] of all."""
+
+    open: int
+    opened: int
+    collapsed: int
+    largest: float
