@@ -19,7 +19,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.serialization import deserialize_message
 
 # A machine under load, or a first start that compiles.
-PATIENCE = 240.0
+PATIENCE = 480.0
 ANSWER = 10.0
 # The same kernels on a coarse mesh: the tests are about the node.
 COARSE = ('-p', 'solver.cells:=100')
