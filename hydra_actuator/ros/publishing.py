@@ -24,6 +24,7 @@ class Publishers:
         self.publish: dict[str, Publish] = {}
         self._node = node
         self._publishers = []
+        self._clock = ''
 
     def create(
         self, parameters: Parameters, topics: ActuatorTopics, clock: bool = False
@@ -44,8 +45,11 @@ class Publishers:
         if parameters['publish.field']:
             topics.field = self._create(Float32MultiArray, '~/field')
         if clock or parameters['publish.clock']:
-            self._warn_of_another_clock()
-            topics.clock = self._create(Clock, '/clock')
+            topics.clock = self._clock = self._create(Clock, '/clock')
+
+    def rivals(self) -> int:
+        """Return how many others publish the same /clock; 0 if none is published here."""
+        return self._node.count_publishers(self._clock) - 1 if self._clock else 0
 
     def destroy(self) -> None:
         """Give all publishers up."""
@@ -53,6 +57,7 @@ class Publishers:
             self._node.destroy_publisher(publisher)
         self._publishers.clear()
         self.publish.clear()
+        self._clock = ''
 
     def _create(self, message_type, topic: str) -> str:
         """Create a publisher and return its topic's full name."""
@@ -62,9 +67,3 @@ class Publishers:
         self._publishers.append(publisher)
         self.publish[publisher.topic_name] = publisher.publish
         return publisher.topic_name
-
-    def _warn_of_another_clock(self) -> None:
-        others = self._node.get_publishers_info_by_topic('/clock')
-        if others:
-            self._node.get_logger().warning(
-                f'/clock is published by {others[0].node_name} as well')

@@ -86,7 +86,8 @@ class Rig:
             self._disconnect()
             raise
         self._vitals = Vitals(
-            self.actuator, self.clock, self.inbox, self.setpoint, self._ring, self.recorder)
+            self.actuator, self.clock, self.inbox, self.setpoint, self._ring, self.recorder,
+            self._publishers)
         self._build_outputs()
         reports.log_time = self.clock.log_time
         reports.keep = self.recorder.put

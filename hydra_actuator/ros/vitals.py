@@ -6,10 +6,14 @@ from hydra_actuator.parameters import Parameters
 from hydra_actuator.ros import statuses
 from hydra_actuator.ros.clocks.source import ClockSource
 from hydra_actuator.ros.inbox import Inbox
+from hydra_actuator.ros.publishing import Publishers
 from hydra_actuator.ros.recorder import Recorder
 from hydra_actuator.ros.ring import Ring
 from hydra_actuator.ros.setpoint import Setpoint
+from hydra_actuator.ros.statuses import Status
 from hydra_actuator.ros.watch import Watched
+
+RIVAL = '/clock is published by another node as well'
 
 
 class Vitals:
@@ -17,7 +21,7 @@ class Vitals:
 
     def __init__(
         self, actuator: Actuator, clock: ClockSource, inbox: Inbox, setpoint: Setpoint,
-        ring: Ring, recorder: Recorder,
+        ring: Ring, recorder: Recorder, publishers: Publishers,
     ):
         self._actuator = actuator
         self._clock = clock
@@ -26,6 +30,8 @@ class Vitals:
         self._setpoint = setpoint
         self._ring = ring
         self._recorder = recorder
+        self._publishers = publishers
+        self._rivals = self._rivals_in_all = 0
         self._rejected = statuses.Recently()
         self._boiled, self._vacuum = statuses.Recently(), statuses.Recently()
 
@@ -41,7 +47,7 @@ class Vitals:
         """Return what diagnostics say, but for the state of the solver."""
         self._commanders.look()
         return [
-            self._clock.status(),
+            self._time(),
             statuses.command(
                 self._desk, self._setpoint, parameters['command.on_timeout'],
                 self._rejected.grew(self._desk.rejections), self._commanders),
@@ -49,12 +55,22 @@ class Vitals:
             statuses.faults(self._actuator.faults.enabled, self._actuator.faults.active),
         ]
 
+    def _time(self) -> Status:
+        """Return how the ticks go, and whether somebody else gives time as well."""
+        status, rivals = self._clock.status(), self._publishers.rivals()
+        self._rivals_in_all += max(0, rivals - self._rivals)
+        self._rivals = rivals
+        if rivals < 1 or status.level:
+            return status
+        return Status(status.name, statuses.WARN, RIVAL, status.values)
+
     def watched(self) -> list[Watched]:
         """Return the counts that become events."""
         warn = statuses.WARN
         actuator = self._actuator
         return [
             *self._clock.watched(),
+            Watched('Real time', warn, RIVAL, lambda: self._rivals_in_all),
             Watched('Real time', warn, 'ticks not published', lambda: self._ring.lost),
             Watched('Command', warn, 'messages dropped', lambda: self._desk.rejections),
             Watched('Command', warn, 'silence', lambda: self._setpoint.timeouts),
