@@ -16,6 +16,7 @@ from hydra_actuator.ros.diagnostics import DiagnosticsThread, Reports
 from hydra_actuator.ros.guard import guard_services, log_traceback, transition
 from hydra_actuator.ros.rig import Rig
 from hydra_actuator.ros.services import Services
+from hydra_actuator.ros.simulation import SimulationServices
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 
 SUCCESS = TransitionCallbackReturn.SUCCESS
@@ -47,6 +48,7 @@ class ActuatorNode(LifecycleNode):
         services = Services(self, lambda: self.rig, self._reports)
         services.is_active = lambda: self._active
         services.forget_faults = self.door.forget_faults
+        SimulationServices(self, services)
         self._failed = self.create_guard_condition(self._stop_after_failure)
         self._diagnostics = DiagnosticsThread(
             self._reports, self._statuses,

@@ -30,11 +30,11 @@ class Services:
         self._rig = rig
         self._reports = reports
         for name, action in (
-            ('reset', self._reset), ('step', self._step), ('clear_faults', self._clear_faults)
+            ('reset', self.reset), ('step', self.step), ('clear_faults', self._clear_faults)
         ):
             self._offer(node, Trigger, name, lambda request, action=action: action())
         for name, switch in (
-            ('pause', self._pause), ('record', self._record), ('enable', self._enable)
+            ('pause', self.pause), ('record', self._record), ('enable', self._enable)
         ):
             self._offer(node, SetBool, name, lambda request, switch=switch: switch(request.data))
 
@@ -45,7 +45,14 @@ class Services:
             return response
         node.create_service(service_type, f'~/{name}', answered(node, name, call))
 
-    def _reset(self) -> tuple[bool, str]:
+    @property
+    def paused(self) -> bool:
+        """Tell whether the node is paused."""
+        rig = self._rig()
+        return rig is not None and rig.paused
+
+    def reset(self) -> tuple[bool, str]:
+        """Return to the initial state; tell whether it was done, and what or why not."""
         if not self.is_active():
             return False, 'not active'
         if not self._rig().reset():
@@ -53,7 +60,8 @@ class Services:
         self._reports.event(OK, 'Solver', 'reset to the initial state')
         return True, 'initial state, command 0'
 
-    def _step(self) -> tuple[bool, str]:
+    def step(self) -> tuple[bool, str]:
+        """Run one tick, paused only."""
         rig = self._rig()
         if not self.is_active() or not rig.paused:
             return False, 'not paused'
@@ -61,7 +69,8 @@ class Services:
             return False, rig.failure
         return True, f'simulated time {rig.actuator.time:.9g} s'
 
-    def _pause(self, paused: bool) -> tuple[bool, str]:
+    def pause(self, paused: bool) -> tuple[bool, str]:
+        """Stop ticking, or go on."""
         rig = self._rig()
         if not self.is_active():
             return False, 'not active'

@@ -112,8 +112,10 @@ def test_a_client_steps_the_node_which_gives_time_and_begins_anew_after_a_reset(
 def test_a_plain_client_that_sends_at_once_has_every_message_obeyed(node_process, peer):
     node = node_process(*LOCKSTEP, '-p', 'timing.lockstep_period:=0.002')
     states = peer.hear(JointState, '/joint_states')
-    sent = peer.publisher(Float64, '/actuator/spool_command')
-    peer.until(lambda: states)
+    sent = peer.node.create_publisher(Float64, '/actuator/spool_command', 100)
+    peer.until(lambda: states and sent.get_subscription_count())
+    # The node may find the publisher later than that one the node.
+    peer.spin(0.5)
     for k in range(60):
         sent.publish(Float64(data=command(k)))
     peer.until(lambda: len({stamp(state) for state in states}) == 61)
