@@ -53,7 +53,7 @@ def real_time_facts(series: Series) -> Rows:
         missing = int(np.sum(np.maximum(np.rint(steps.deviation / steps.period), 0)))
         rows += [('greatest deviation of a stamp step', f'{worst:.4g} us'),
                  ('missing ticks between stamps', str(missing))]
-    if len(series.send_delay):
+    if len(series.send_delay) and not timing.in_simulated_time(series):
         p50, p99, top = np.percentile(series.send_delay, [50, 99, 100]) * MICRO
         rows.append(('sending after the stamp, p50 / p99 / max',
                      f'{p50:.0f} / {p99:.0f} / {top:.0f} us'))

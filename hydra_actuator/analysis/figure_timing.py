@@ -10,6 +10,7 @@ import numpy as np
 
 BUCKETS = 200
 STAMP_POINTS = 8000
+_SIMULATED = 'the node ran in simulated time'
 _PERCENTILES = {'p50': BLUE, 'p99': ORANGE, 'max': VERMILION}
 
 
@@ -21,6 +22,8 @@ def real_time(series: Series) -> Figure:
         return Figure.absent(
             'real_time', title, 'the recording has no real-time statistics of a node',
         )
+    if timing.in_simulated_time(series):
+        return Figure.absent('real_time', title, _SIMULATED)
     time = np.array([report.time for report in reports])
     values = timing.numeric_values(reports)
     traces, titles = [], []
@@ -51,6 +54,8 @@ def sending(series: Series) -> Figure:
     title = 'Real time: sending the states'
     if not len(series.send_delay):
         return Figure.absent('sending', title, 'the recording has no times of sending')
+    if timing.in_simulated_time(series):
+        return Figure.absent('sending', title, _SIMULATED)
     time, lines = timing.percentiles_over_time(
         series.time, series.send_delay * MICRO, min(BUCKETS, max(len(series.time) // 100, 1)),
     )

@@ -43,6 +43,11 @@ def real_time_reports(series: Series) -> list[Report]:
     return sorted(found, key=lambda report: report.time)
 
 
+def in_simulated_time(series: Series) -> bool:
+    """Tell whether stamps have nothing to do with the system's time: lockstep and the like."""
+    return any('mode' in report.values for report in real_time_reports(series))
+
+
 def numeric_values(reports: list[Report]) -> dict[str, np.ndarray]:
     """Return each key's values over the reports; NaN where one is missing or no number."""
     keys = dict.fromkeys(key for report in reports for key in report.values)

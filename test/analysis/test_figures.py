@@ -78,6 +78,16 @@ def test_an_event_of_the_same_name_is_no_report(run):
     assert all(np.isfinite(trace['y']).all() for trace in figure.traces)
 
 
+def test_a_run_in_simulated_time_has_no_real_time_statistics(run):
+    said = replace(run.diagnostics[0], values={'mode': 'lockstep', 'ticks': '5', 'waiting': '0.1'})
+    stepped = replace(run, diagnostics=(said,), send_delay=np.full(len(run.time), 1.7e9))
+    missing = [figure.key for figure in report.figures(stepped) if figure.missing]
+    assert {'real_time', 'sending'} <= set(missing)
+    told = dict(facts.real_time_facts(stepped))
+    assert told['ticks'] == '5'
+    assert not any(name.startswith('sending') for name in told)
+
+
 def test_real_time_facts_carry_their_units(run):
     assert dict(facts.real_time_facts(run))['lateness p99'] == '140 us'
 

@@ -4,6 +4,7 @@
 import hashlib
 import math
 
+from diagnostic_msgs.msg import DiagnosticArray
 from hydra_actuator import Actuator, load_parameters, load_recording
 from hydra_actuator.replay import Replay
 from hydra_actuator.ros.client import LockstepClient
@@ -125,3 +126,23 @@ def test_a_plain_client_that_sends_at_once_has_every_message_obeyed(node_process
     expected = offline([command(k // 2) for k in range(120)])[1::2]
     assert bits(recording.rows[1:, recording.channels.POSITION]) == bits(expected[:, 0])
     assert [row[0] for row in recording.applied[1]] == [0, *range(2, 120, 2)]
+
+
+def test_free_wheeling_it_runs_until_the_first_command_and_waiting_is_told(node_process, peer):
+    node = node_process(*LOCKSTEP, '-p', 'timing.free_wheel:=true', '-p', 'timing.speed:=0.1')
+    events = peer.hear(DiagnosticArray, '/actuator/events')
+    states = peer.hear(JointState, '/joint_states')
+    peer.until(lambda: len(states) > 20)
+    with LockstepClient(peer.node) as client:
+        client.connect()
+        before = stamp(client.step(0.5))
+        peer.until(lambda: stamp(states[-1]) >= before)
+        last = stamp(states[-1])
+        peer.until(lambda: any('waiting for a command' in status.message
+                               for event in events for status in event.status))
+        assert stamp(states[-1]) == last
+        assert stamp(client.step(0.5)) == last + PERIOD_NS
+    assert node.end()[0] == 0
+    stamps = load_recording(node.recording).row_stamps
+    assert set(np.diff(stamps).tolist()) == {PERIOD_NS}
+    assert Replay(node.recording).compare().identical
