@@ -37,15 +37,21 @@ class History:
 
         places: in ticks, at most `now`; values: the signals at `now`, a tick or between two.
         """
-        capacity, columns = len(self._values), self._columns
         if self.newest < self.oldest:
             return values
         whole = np.floor(places).astype(np.int64)
         share = places - whole
-        before = self._values[np.clip(whole, self.oldest, self.newest) % capacity, columns]
-        after = self._values[np.clip(whole + 1, self.oldest, self.newest) % capacity, columns]
+        before = self._known(whole)
+        if now == self.newest and not share.any():
+            return before
+        after = self._known(whole + 1)
         beyond = whole >= self.newest
         after = np.where(beyond, values, after)
         share = np.where(beyond, share / max(now - self.newest, 1e-300), share)
         late = np.where(share > 0.0, before + share * (after - before), before)
         return np.where(places >= now, values, late)
+
+    def _known(self, ticks: np.ndarray) -> np.ndarray:
+        """Return each signal at its own tick, or at the nearest one known."""
+        nearest = np.minimum(np.maximum(ticks, self.oldest), self.newest)
+        return self._values[nearest % len(self._values), self._columns]

@@ -58,6 +58,11 @@ class Instruments:
         new = settings(self._signals, sensor, faults)
         self._settings: Settings = new
         self._affected = new.affected
+        self._delays, self._lags = new.delay.any(), new.time_constant.any()
+        self._sticks, self._misses = new.stuck.any(), new.off.any() or new.dropout.any()
+        self._resolves, self._fine = new.resolution > 0.0, None
+        if self._resolves.any():
+            self._fine = np.where(self._resolves, new.resolution, 1.0)
         self.variance = new.variance
         self.acting = bool(self._affected.any())
         self._remembering = remember or self.acting
@@ -111,7 +116,7 @@ class Instruments:
 
     def _late(self, truth: np.ndarray, step: int) -> np.ndarray:
         """Return the signals as they were before their delays."""
-        if self._history is None or not self._delay.any():
+        if self._history is None or not self._delays:
             return truth
         now = step / self._steps_per_period
         return self._history.at(now - self._delay, now, truth)
@@ -122,9 +127,9 @@ class Instruments:
 
         Exact for a signal that is linear from the last tick until now; a lag begins at rest.
         """
-        lag = self._settings.time_constant
-        if self._at_last_tick is None or not lag.any():
+        if self._at_last_tick is None or not self._lags:
             return signal
+        lag = self._settings.time_constant
         step_before, before, response, _ = self._at_last_tick
         time = (step - step_before) * self._step_time
         decay = np.exp(-time / np.maximum(lag, 1e-300))
@@ -138,21 +143,21 @@ class Instruments:
         value = signal + own.offset
         for deviation, draws in self._noises:
             value = value + deviation * draws.normal(step)
-        if own.resolution.any():
-            fine = np.where(own.resolution > 0.0, own.resolution, 1.0)
-            value = np.where(own.resolution > 0.0, np.round(value / fine) * fine, value)
+        if self._fine is not None:
+            value = np.where(self._resolves, np.rint(value / self._fine) * self._fine, value)
         value = np.where(self._affected, value, truth)
-        if self._at_last_tick is not None:
+        if self._sticks and self._at_last_tick is not None:
             value = np.where(own.stuck, self._at_last_tick[3], value)
         return value
 
     def _entered(self, row: list[float], reading: np.ndarray, step: int) -> list[float]:
         """Return a copy of the row with the readings, NaN for those that are missing."""
-        missing = self._settings.off
-        if self._settings.dropout.any():
-            missing = missing | (self._dropout.uniform(step) < self._settings.dropout)
+        own = self._settings
+        if self._misses:
+            missing = own.off | (self._dropout.uniform(step) < own.dropout)
+            reading = np.where(missing, math.nan, reading)
         read = row.copy()
-        for column, value in zip(self._columns, np.where(missing, math.nan, reading).tolist()):
+        for column, value in zip(self._columns, reading.tolist()):
             read[column] = value
         if self._twin:
             read[Channels.SPOOL_2] = read[Channels.SPOOL_1]
