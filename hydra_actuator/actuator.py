@@ -39,7 +39,7 @@ VACUUM = -1.0
 
 
 class Actuator:
-    """A hydraulic servo-actuator, solved in steps of `step_time`."""
+    """A servo-actuator; courant: largest c dt/dx, largest_mach: largest |u|/c at any tick."""
 
     def __init__(self, parameters: Parameters | None = None) -> None:
         """
@@ -77,6 +77,8 @@ class Actuator:
         self._inputs[:] = self._table[0]
         self._schedule = (self._times, self._table, True)
         self._vacuum_ticks = 0
+        self.largest_mach = 0.0
+        self.courant = float(np.max(self._model.courant))
         self.supply.begin()
         self.faults.restart()
         self.faults.follow(0.0)
@@ -134,8 +136,10 @@ class Actuator:
         table[SPOOL_1], table[SPOOL_2], table[LOAD_FORCE] = spool_1, spool_2, load_force
         code = self._run(self._schedule, self.steps_per_period)
         self._observe()
-        if self.row[self.channels.lowest_pressure] < VACUUM:
+        row = self.row
+        if row[self.channels.lowest_pressure] < VACUUM:
             self._vacuum_ticks += 1
+        self.largest_mach = max(self.largest_mach, float(row[Channels.MACH]))
         return code
 
     def follow(self, schedule: tuple[np.ndarray, np.ndarray, bool], steps: int) -> int:

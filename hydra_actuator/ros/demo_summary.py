@@ -74,7 +74,7 @@ def _timing(figures: dict[str, str]) -> Summary:
         *((f'{name} p50 / p99 / max',
            ' / '.join(figures[f'{name}_{part}'] for part in ('p50', 'p99', 'max')) + ' us')
           for name in ('lateness', 'execution')),
-        ('real-time priority', figures.get('thread_priority', 'not asked for')),
+        ('real-time priority', figures.get('thread_priority_obtained', 'not asked for')),
     ]
     failed = []
     if abs(float(figures['real_time_factor']) - 1.0) > REAL_TIME:

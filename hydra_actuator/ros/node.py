@@ -17,6 +17,7 @@ from hydra_actuator.ros.guard import guard_services, log_traceback, transition
 from hydra_actuator.ros.rig import Rig
 from hydra_actuator.ros.services import Services
 from hydra_actuator.ros.simulation import SimulationServices
+from hydra_actuator.ros.solver_status import solver
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 
 SUCCESS = TransitionCallbackReturn.SUCCESS
@@ -172,23 +173,4 @@ class ActuatorNode(LifecycleNode):
     def _statuses(self) -> list[statuses.Status]:
         rig = self.rig
         parts = statuses.idle(self._state_name) if rig is None else rig.statuses()
-        return [self._solver_status(rig), *parts]
-
-    def _solver_status(self, rig: Rig | None) -> statuses.Status:
-        values = {'state': self._state_name}
-        if rig is not None:
-            values['simulated_time'] = f'{rig.actuator.time:.9g}'
-            values['resets'] = str(rig.plant.resets)
-            values['stop_hits'] = str(rig.actuator.stop_hits)
-            oil = rig.oil()
-            values.update(oil.values)
-        if self.problem:
-            return statuses.Status('Solver', statuses.ERROR, self.problem, values)
-        if rig is not None and not rig.plant.enabled:
-            return statuses.Status(
-                'Solver', statuses.WARN, 'emergency stop: valve centred, supply off', values)
-        paused = rig is not None and rig.paused
-        if rig is not None and self._active and not paused and oil.level:
-            return statuses.Status('Solver', oil.level, oil.message, values)
-        return statuses.Status(
-            'Solver', statuses.OK, 'paused' if paused else self._state_name, values)
+        return [solver(self._state_name, self.problem, self._active, rig), *parts]

@@ -7,7 +7,9 @@ recorded is let go.
 """
 
 from collections.abc import Mapping, Sequence
+import os
 from pathlib import Path
+import shutil
 import time
 
 from hydra_actuator.parameters import Parameters
@@ -52,6 +54,22 @@ class Recorder:
         """Counts of the open recording."""
         writer = self._writer
         return None if writer is None else writer.statistics
+
+    @property
+    def size(self) -> int:
+        """Bytes in the files of the last recording."""
+        try:
+            return sum(entry.stat().st_size for entry in os.scandir(self.path))
+        except OSError:
+            return 0
+
+    @property
+    def free_space(self) -> int:
+        """Bytes that the disk has left for the last recording."""
+        try:
+            return shutil.disk_usage(self.path).free
+        except OSError:
+            return 0
 
     def open(self) -> Path:
         """Begin a recording and return its directory; raises RecordingError."""

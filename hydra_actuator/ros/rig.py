@@ -88,6 +88,7 @@ class Rig:
         self._vitals = Vitals(
             self.actuator, self.clock, self.inbox, self.setpoint, self._ring, self.recorder,
             self._publishers)
+        self._vitals.setup = self.setup
         self._build_outputs()
         reports.log_time = self.clock.log_time
         reports.keep = self.recorder.put
@@ -201,7 +202,7 @@ class Rig:
 
     def _build_plant(self) -> None:
         p, actuator = self.parameters, self.actuator
-        self.clock = clock_source(p, self.setup)
+        self.clock = clock_source(p)
         self.desk = CommandDesk(CommandRules.of(p))
         self.setpoint = Setpoint(self._timeout(p), p['command.on_timeout'])
         self.setpoint.on_command = self.clock.command

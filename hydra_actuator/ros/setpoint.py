@@ -13,7 +13,13 @@ from hydra_actuator.ros.commands import CENTRED, Spools
 
 
 class Setpoint:
-    """What the valve and the load are asked to be now."""
+    """
+    What the valve and the load are asked to be now.
+
+    held: (spool 1, spool 2, load [N]) as the solver last took them; applied: how many commands
+    and loads it has taken, of several within a tick only the last; commanded: whether a spool
+    command holds, rather than the 0 before the first.
+    """
 
     def __init__(
         self, timeout: float = 0.0, on_timeout: str = 'hold',
@@ -23,6 +29,10 @@ class Setpoint:
         self.on_command: Callable[[tuple[float, float, float]], None] = lambda inputs: None
         self.timed_out = False
         self.timeouts = 0
+        self.held = (*CENTRED, 0.0)
+        self.applied = 0
+        self.commanded = False
+        self._fresh = False
         self._clock = clock
         self._spools = CENTRED
         self._load_force = 0.0
@@ -36,15 +46,18 @@ class Setpoint:
     def accept(self, spools: Spools) -> None:
         """Hold a spool command from the next tick on, and tell `on_command` what holds now."""
         self._hold(spools)
+        self.commanded = self._fresh = True
         self.on_command((*spools, self._load_force))
 
     def accept_load(self, load_force: float) -> None:
         """Hold an external load [N] from the next tick on."""
         self._load_force = load_force
+        self._fresh = True
 
     def centre(self) -> None:
         """Forget the spool command: 0, as before the first one."""
         self._hold(CENTRED)
+        self.commanded = False
 
     @property
     def silence(self) -> float:
@@ -52,7 +65,10 @@ class Setpoint:
         return (self._clock() - self._accepted_ns) * 1e-9
 
     def sample(self) -> tuple[float, float, float]:
-        """Return (spool 1, spool 2, load [N]) as they hold at this instant."""
+        """Return (spool 1, spool 2, load [N]) as they hold at this instant; for the solver."""
+        if self._fresh:
+            self._fresh = False
+            self.applied += 1
         spools = self._spools
         limit_ns, centre = self._limit
         if limit_ns:
@@ -63,7 +79,8 @@ class Setpoint:
                 spools = CENTRED
         else:
             self.timed_out = False
-        return (*spools, self._load_force)
+        self.held = (*spools, self._load_force)
+        return self.held
 
     def _hold(self, spools: Spools) -> None:
         self._accepted_ns = self._clock()

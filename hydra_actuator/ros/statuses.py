@@ -6,8 +6,9 @@ Levels as diagnostic_msgs has them. What happens once (a missed tick, a dropped 
 a warning for as long as `RECENT`, so that a listener at 1 Hz cannot fail to see it.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+import gc
 import time
 from types import MappingProxyType
 
@@ -36,6 +37,28 @@ class Status:
     values: Mapping[str, str] = field(default_factory=dict)
 
 
+class OnDemand(Mapping[str, str]):
+    """Values that are put together when first looked at: levels are asked for far more often."""
+
+    def __init__(self, make: Callable[[], Mapping[str, str]]):
+        self._make = make
+        self._made: Mapping[str, str] | None = None
+
+    def _values(self) -> Mapping[str, str]:
+        if self._made is None:
+            self._made = self._make()
+        return self._made
+
+    def __getitem__(self, name: str) -> str:
+        return self._values()[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values())
+
+    def __len__(self) -> int:
+        return len(self._values())
+
+
 class Recently:
     """Tells whether a count has grown within the last RECENT seconds."""
 
@@ -52,14 +75,17 @@ class Recently:
         return now < self._until
 
 
-def real_time(
-    pacer: Pacer, period: float, missed_recently: bool, setup: Mapping[str, str]
-) -> Status:
-    """
-    Return how well the ticks keep to their grid; durations in microseconds.
+def real_time(pacer: Pacer, period: float, missed_recently: bool) -> Status:
+    """Return how well the ticks keep to their grid; durations in microseconds."""
+    values = OnDemand(lambda: _punctuality(pacer, period))
+    if pacer.halted:
+        return Status('Real time', ERROR, 'halted after a missed tick', values)
+    if missed_recently:
+        return Status('Real time', WARN, f'{pacer.missed} ticks missed in all', values)
+    return Status('Real time', OK, 'on time', values)
 
-    setup: what scheduling was asked for and had, as `scheduling` tells it.
-    """
+
+def _punctuality(pacer: Pacer, period: float) -> dict[str, str]:
     elapsed = pacer.elapsed
     factor = pacer.ticks * period / elapsed if elapsed > 0.0 else 0.0
     values = {
@@ -72,30 +98,43 @@ def real_time(
         for percent in PERCENTILES:
             values[f'{name}_p{percent:g}'] = f'{histogram.percentile(percent) / 1e3:.1f}'
         values[f'{name}_max'] = f'{histogram.maximum / 1e3:.1f}'
-    values.update(setup)
-    if pacer.halted:
-        return Status('Real time', ERROR, 'halted after a missed tick', values)
-    if missed_recently:
-        return Status('Real time', WARN, f'{pacer.missed} ticks missed in all', values)
-    refused = refusals(setup)
-    if refused:
-        return Status('Real time', WARN, '; '.join(['on time', *refused]), values)
-    return Status('Real time', OK, 'on time', values)
+    return values
+
+
+def scheduled(ticks: Status, setup: Mapping[str, str]) -> Status:
+    """
+    Return the status of the ticks with what the system grants to them; a refusal is a warning.
+
+    setup: what scheduling was asked for and had, as `scheduling` tells it.
+    """
+    values = OnDemand(lambda: {**ticks.values, **setup, **collector()})
+    refused = [] if ticks.level else refusals(setup)
+    return Status(
+        ticks.name, WARN if refused else ticks.level, '; '.join([ticks.message, *refused]), values)
+
+
+def collector() -> dict[str, str]:
+    """Return what the garbage collector leaves alone, and how often it went over the rest."""
+    return {
+        'collector_frozen_objects': str(gc.get_freeze_count()),
+        'collector_full_runs': str(gc.get_stats()[-1]['collections'])}
 
 
 def command(
     desk: CommandDesk, setpoint: Setpoint, on_timeout: str, rejected_recently: bool,
     commanders: Commanders,
 ) -> Status:
-    """Return what became of the command messages, and who sends them."""
-    spool_1, spool_2, load_force = setpoint.sample()
+    """Return what became of the command messages, and who sends them; age in s."""
+    spool_1, spool_2, load_force = setpoint.held
     values = {
+        'received': str(desk.accepted + desk.rejections + desk.without_command),
         'accepted': str(desk.accepted),
+        'applied': str(setpoint.applied),
         'clamped': str(desk.clamped),
         'rejected': str(desk.rejections),
         'without_command': str(desk.without_command),
         'last_rejection': desk.last_rejection,
-        'silence': f'{setpoint.silence:.3f}',
+        'command_age': f'{setpoint.silence:.3f}' if setpoint.commanded else 'no command yet',
         'spool_1': repr(spool_1), 'spool_2': repr(spool_2), 'load_force': repr(load_force),
     }
     values.update(
@@ -122,13 +161,22 @@ def recorder(recorder: Recorder) -> Status:
         last = {'last_path': str(recorder.path)} if recorder.path else {}
         return Status('Recorder', OK, 'not recording', last)
     dropped = sum(statistics.dropped.values())
-    values = {
-        'path': str(recorder.path),
-        'written': str(sum(statistics.written.values())),
-        'dropped': str(dropped),
-        'waiting_bytes': str(statistics.waiting_bytes),
-        'most_waiting_bytes': str(statistics.most_waiting_bytes),
-    }
+
+    def figures() -> dict[str, str]:
+        values = {
+            'path': str(recorder.path),
+            'written': str(sum(statistics.written.values())),
+            'bytes': str(recorder.size),
+            'free_disk_bytes': str(recorder.free_space),
+            'dropped': str(dropped),
+            'waiting_bytes': str(statistics.waiting_bytes),
+            'most_waiting_bytes': str(statistics.most_waiting_bytes),
+        }
+        values.update({
+            f'dropped: {topic}': str(count) for topic, count in statistics.dropped.items()})
+        return values
+
+    values = OnDemand(figures)
     if recorder.error:
         return Status('Recorder', ERROR, recorder.error, values)
     if dropped:
@@ -168,7 +216,7 @@ def faults(enabled: bool = False, active: Mapping[str, object] = MappingProxyTyp
 def idle(state: str) -> list[Status]:
     """Return what stands for the parts that an unconfigured node does not have."""
     return [
-        Status('Real time', OK, f'{state}: no ticks'),
+        Status('Real time', OK, f'{state}: no ticks', collector()),
         Status('Command', OK, f'{state}: commands are ignored'),
         Status('Recorder', OK, 'not recording'),
         faults(),

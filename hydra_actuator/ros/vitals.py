@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a rig says of itself: the statuses of diagnostics, and the counts that become events."""
 
+from collections.abc import Mapping
+
 from hydra_actuator.actuator import Actuator
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.ros import statuses
@@ -17,7 +19,11 @@ RIVAL = '/clock is published by another node as well'
 
 
 class Vitals:
-    """Reads the parts of a rig, and remembers what has happened of late."""
+    """
+    Reads the parts of a rig, and remembers what has happened of late.
+
+    setup: what scheduling was asked for and had, filled as it is known.
+    """
 
     def __init__(
         self, actuator: Actuator, clock: ClockSource, inbox: Inbox, setpoint: Setpoint,
@@ -32,6 +38,7 @@ class Vitals:
         self._recorder = recorder
         self._publishers = publishers
         self._rivals = self._rivals_in_all = 0
+        self.setup: Mapping[str, str] = {}
         self._rejected = statuses.Recently()
         self._boiled, self._vacuum = statuses.Recently(), statuses.Recently()
 
@@ -47,7 +54,7 @@ class Vitals:
         """Return what diagnostics say, but for the state of the solver."""
         self._commanders.look()
         return [
-            self._time(),
+            statuses.scheduled(self._time(), self.setup),
             statuses.command(
                 self._desk, self._setpoint, parameters['command.on_timeout'],
                 self._rejected.grew(self._desk.rejections), self._commanders),

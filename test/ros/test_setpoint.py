@@ -57,3 +57,19 @@ def test_centring_forgets_the_command_and_keeps_the_load(clock):
     setpoint.accept_load(-5.0)
     setpoint.centre()
     assert setpoint.sample() == (0.0, 0.0, -5.0)
+
+
+def test_of_several_commands_within_a_tick_one_is_applied(clock):
+    setpoint = Setpoint(clock=clock)
+    setpoint.sample()
+    assert (setpoint.applied, setpoint.commanded) == (0, False)
+    setpoint.accept((0.25, 0.25))
+    setpoint.accept((0.5, 0.5))
+    assert (setpoint.held, setpoint.applied) == ((0.0, 0.0, 0.0), 0)
+    setpoint.sample()
+    setpoint.sample()
+    assert setpoint.held == (0.5, 0.5, 0.0)
+    assert (setpoint.applied, setpoint.commanded) == (1, True)
+    setpoint.centre()
+    setpoint.sample()
+    assert (setpoint.applied, setpoint.commanded) == (1, False)

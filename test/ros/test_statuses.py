@@ -40,7 +40,7 @@ def pacer():
 
 
 def test_real_time_shows_percentiles_and_maximum(pacer):
-    values = statuses.real_time(pacer, PERIOD, False, {}).values
+    values = statuses.real_time(pacer, PERIOD, False).values
     assert float(values['lateness_p50']) == pytest.approx(5.0, rel=0.04)
     assert float(values['lateness_p99']) == pytest.approx(5.0, rel=0.04)
     assert float(values['lateness_p99.9']) == pytest.approx(5.0, rel=0.04)
@@ -49,9 +49,26 @@ def test_real_time_shows_percentiles_and_maximum(pacer):
 
 
 def test_what_was_refused_is_a_warning_with_its_reason(pacer):
-    status = statuses.real_time(pacer, PERIOD, False, REFUSED)
+    ticks = statuses.real_time(pacer, PERIOD, False)
+    status = statuses.scheduled(ticks, REFUSED)
     assert status.level == statuses.WARN
     assert status.message == (
         'on time; thread priority refused: Operation not permitted; the limit rtprio is 0')
     assert status.values['thread_priority_obtained'] == 'SCHED_OTHER'
-    assert statuses.real_time(pacer, PERIOD, False, {}).level == statuses.OK
+    assert status.values['ticks'] == ticks.values['ticks']
+    granted = statuses.scheduled(ticks, {'timer_slack_obtained': '1 ns'})
+    assert (granted.level, granted.message) == (statuses.OK, 'on time')
+
+
+def test_a_missed_tick_comes_before_what_was_refused(pacer):
+    status = statuses.scheduled(statuses.real_time(pacer, PERIOD, True), REFUSED)
+    assert (status.level, status.message) == (statuses.WARN, '0 ticks missed in all')
+
+
+def test_values_are_put_together_when_looked_at_and_once():
+    made = []
+    values = statuses.OnDemand(lambda: made.append(1) or {'ticks': '7'})
+    assert not made
+    assert values['ticks'] == '7'
+    assert dict(values) == {'ticks': '7'}
+    assert len(made) == 1

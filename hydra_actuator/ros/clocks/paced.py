@@ -6,7 +6,6 @@ The stamp of a tick is base + (ticks + slipped) * period, with base the system t
 simulated time plus slip, whatever the clocks do meanwhile.
 """
 
-from collections.abc import Mapping
 import time
 
 from hydra_actuator.pacer import Pacer
@@ -16,18 +15,13 @@ from hydra_actuator.ros.watch import Watched
 
 
 class Paced(ClockSource):
-    """
-    Grants what a pacer grants.
-
-    setup: what scheduling was asked for and had, filled as it is known.
-    """
+    """Grants what a pacer grants."""
 
     simulated = False
 
-    def __init__(self, period: float, pacer: Pacer, setup: Mapping[str, str] | None = None):
+    def __init__(self, period: float, pacer: Pacer):
         super().__init__(period)
         self.pacer = pacer
-        self._setup = {} if setup is None else setup
         self._base = 0
         self._missed = statuses.Recently()
 
@@ -63,8 +57,7 @@ class Paced(ClockSource):
     def status(self) -> statuses.Status:
         """Return how well the ticks keep to their grid."""
         pacer = self.pacer
-        return statuses.real_time(
-            pacer, self.period, self._missed.grew(pacer.missed), self._setup)
+        return statuses.real_time(pacer, self.period, self._missed.grew(pacer.missed))
 
     def watched(self) -> list[Watched]:
         """Return missed ticks and slip."""
