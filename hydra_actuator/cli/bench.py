@@ -24,6 +24,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--nodes', type=int, metavar='N',
                         help='how many nodes hold their rate side by side: 1, 2, 4 .. N of them, '
                              '--duration seconds each, over DDS')
+    parser.add_argument('--real-time', action='store_true',
+                        help='lateness of a node alone, flooded and beside a busy core, and how '
+                             'soon it answers, --duration seconds each, over DDS')
     parser.add_argument('--options', action='store_true',
                         help='what each option of the physics costs, as a ratio in one run')
 
@@ -36,6 +39,8 @@ def run(arguments: argparse.Namespace) -> int:
     parameters = load_parameters(*arguments.config)
     if arguments.nodes is not None:
         return _nodes(arguments)
+    if arguments.real_time:
+        return _real_time(arguments, parameters)
     if arguments.options:
         return _options(parameters if arguments.config else None, arguments.duration)
     from hydra_actuator.benchmark import measure_speed
@@ -58,14 +63,35 @@ def _row(name: str, times) -> str:
     return f'{name:<24}{times[0]:12.3f}{times[len(times) // 2]:12.3f}{times[-1]:12.3f}'
 
 
-def _nodes(arguments: argparse.Namespace) -> int:
-    """Print the table of what each count of nodes reaches."""
+def _need_ros() -> None:
     from importlib.util import find_spec
 
-    if not 1 <= arguments.nodes <= MOST_NODES:
-        raise InputError(f'--nodes {arguments.nodes}: 1 to {MOST_NODES}')
     if find_spec('rclpy') is None:
         raise InputError('rclpy is not installed: source a ROS 2 setup, or make venv')
+
+
+def _real_time(arguments: argparse.Namespace, parameters) -> int:
+    """Print the table of how late ticks are, and how soon commands are answered."""
+    _need_ros()
+    from hydra_actuator.ros.punctuality import lines, measure
+
+    print(f'{len(os.sched_getaffinity(0))} cores, load average {os.getloadavg()[0]:.1f} before; '
+          f'{arguments.duration:g} s each; microseconds, p50 / p99 / p99.9 / max; missed of ticks',
+          flush=True)
+    with tempfile.TemporaryDirectory() as folder, ProgressBar('bench') as progress:
+        for case in measure(
+            arguments.duration, arguments.config, parameters, Path(folder), progress
+        ):
+            progress.clear()
+            print('\n'.join(lines(case)), flush=True)
+    return 0
+
+
+def _nodes(arguments: argparse.Namespace) -> int:
+    """Print the table of what each count of nodes reaches."""
+    if not 1 <= arguments.nodes <= MOST_NODES:
+        raise InputError(f'--nodes {arguments.nodes}: 1 to {MOST_NODES}')
+    _need_ros()
     from hydra_actuator.ros.fleet import measure_fleets, MOST_MISSED
 
     print(f'{len(os.sched_getaffinity(0))} cores, load average {os.getloadavg()[0]:.1f} before; '

@@ -21,6 +21,10 @@ class ProgressBar:
         return self
 
     def __exit__(self, *_) -> None:
+        self.clear()
+
+    def clear(self) -> None:
+        """Take it away, for a line to be printed; the next call draws it again."""
         if self._visible:
             print('\r\x1b[2K', end='', file=sys.stderr, flush=True)
 

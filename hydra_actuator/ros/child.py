@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A node in a process of its own, started and stopped in order by the one that measures it."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 import ctypes
 import os
 from pathlib import Path
@@ -21,13 +21,16 @@ class ChildNode:
     """
     `hydra_actuator node` with ROS arguments, from its making to the end of its context.
 
+    command: module and arguments of another program that is a node.
+
     It speaks on this process's ROS domain, and ends with this process even if that is killed.
     """
 
-    def __init__(self, ros_arguments: Iterable[str]):
+    def __init__(
+        self, ros_arguments: Iterable[str], command: Sequence[str] = ('hydra_actuator', 'node')
+    ):
         self._log = tempfile.TemporaryFile()
-        command = [
-            sys.executable, '-m', 'hydra_actuator', 'node', '--ros-args', *ros_arguments]
+        command = [sys.executable, '-m', *command, '--ros-args', *ros_arguments]
         # In a session of its own: Ctrl-C is for us, and we stop the node in order.
         self._process = subprocess.Popen(
             command, stdin=subprocess.DEVNULL, stdout=self._log, stderr=self._log,
