@@ -49,5 +49,6 @@ setup(
             'hydra_actuator = hydra_actuator.cli.main:main',
             'actuator_node = hydra_actuator.cli.main:node_main',
         ],
+        'pytest11': ['hydra_actuator = hydra_actuator.testing.plugin'],
     },
 )

@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 from hydra_actuator.errors import Failure
 
@@ -61,9 +62,25 @@ class ChildNode:
 
     def check(self) -> None:
         """Raise Failure if it has ended by itself."""
-        if self._process.poll() is not None:
+        if self.died:
             raise Failure(
                 f'the node ended with code {self._process.returncode}; {self.last_line}')
+
+    def wait_until_active(self, patience: float) -> None:
+        """Wait until it says that it is active; raises Failure if it cannot be, or is not yet."""
+        end = time.monotonic() + patience
+        while 'active: ' not in self.text:
+            self.check()
+            if 'cannot configure: ' in self.text:
+                raise Failure(f'the node does not start; {self.last_line}')
+            if time.monotonic() > end:
+                raise Failure(f'the node is not active within {patience:g} s; {self.last_line}')
+            time.sleep(0.02)
+
+    @property
+    def died(self) -> bool:
+        """Whether it has ended without having been asked."""
+        return self._process.poll() is not None and not self._interrupted
 
     @property
     def pid(self) -> int:
@@ -83,19 +100,20 @@ class ChildNode:
     @property
     def last_line(self) -> str:
         """What it printed last, as part of a sentence."""
-        lines = self._text.strip().splitlines()
+        lines = self.text.strip().splitlines()
         return f'it said: {lines[-1]}' if lines else 'it said nothing'
 
     @property
     def recording(self) -> Path:
         """The recording that it said it writes; raises Failure if it has said nothing of it."""
-        found = re.search(r'recording to (.+)$', self._text, re.MULTILINE)
+        found = re.search(r'recording to (.+)$', self.text, re.MULTILINE)
         if found is None:
             raise Failure('the node recorded nothing')
         return Path(found.group(1))
 
     @property
-    def _text(self) -> str:
+    def text(self) -> str:
+        """All that it has printed."""
         self._log.seek(0)
         return self._log.read().decode('utf-8', 'replace')
 

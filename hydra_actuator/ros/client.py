@@ -40,10 +40,11 @@ class LockstepClient:
     Advances an actuator in lockstep, one period a command.
 
     node: of the caller; actuator: fully qualified name of the actuator's node; patience [s]:
-    longest wait for anything, a start that compiles included.
+    longest wait for anything, a start that compiles included. `state` is the last one it heard.
     """
 
     def __init__(self, node: Node, actuator: str = '/actuator', patience: float = 240.0):
+        self.state: JointState | None = None
         self._node = node
         self._patience = patience
         self._stamp: int | None = None
@@ -124,7 +125,7 @@ class LockstepClient:
                 with self._states.handle:
                     taken = self._states.handle.take_message(JointState, True)
                 if taken is not None:
-                    state = deserialize_message(taken[0], JointState)
+                    state = self.state = deserialize_message(taken[0], JointState)
                     stamp = state.header.stamp
                     self._stamp = stamp.sec * 1_000_000_000 + stamp.nanosec
                     return state
