@@ -30,7 +30,7 @@ ROOMS = {
     'errors': (set(), set()),
     'parameters': ({'parameters'}, {'numpy', 'yaml'}),
     'recording': ({'recording', 'interruption', 'hydra_actuator'},
-                  {'numpy', 'mcap', 'lz4', 'zstandard', 'yaml'}),
+                  {'numpy', 'mcap', 'lz4', 'zstandard', 'yaml', 'xarray', 'pandas', 'pyarrow'}),
     'analysis': ({'analysis', 'recording', 'parameters'}, {'numpy', 'plotly', 'matplotlib'}),
     'csv_files': (set(), set()),
     'faults': ({'faults', 'parameters', 'csv_files'}, set()),

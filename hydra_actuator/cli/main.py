@@ -23,6 +23,7 @@ VERBS = {
     'simulate': 'an offline run, as fast as possible, into a recording',
     'report': 'one self-contained page about a recording',
     'info': 'what a recording holds',
+    'export': 'a recording as CSV, Parquet or NetCDF, with units',
     'recover': 'salvage of an unfinished or damaged recording',
     'paper': 'every figure of the paper, and its statements beside our numbers',
     'verify': 'the solver against exact solutions and conservation laws',

@@ -19,6 +19,8 @@ Nothing in here imports rclpy; it knows the channels of the actuator, not its ph
     series       the messages of one topic as arrays
     rows         observation rows from the topics of the state
     reader       a recording as arrays over time
+    labelled     a recording as xarray datasets with units
+    export       a recording as CSV, Parquet or NetCDF
     salvage      what is sound in one file, damaged or not
     proof        its topics and custom data, as far as they can be proved
     recovery     a new recording made of what is sound

@@ -4,6 +4,7 @@ A recording as arrays over time.
 
     recording = load_recording('recordings/actuator_20250101_120000')
     recording.time, recording.rows[:, recording.channels.POSITION]
+    recording.dataset.pressure.sel(station='A')
 
 Opening reads no message; each array is made when it is first asked for. Unfinished recordings
 open too, up to where they were cut off, and so does a lone MCAP file.
@@ -16,9 +17,10 @@ from dataclasses import dataclass
 from functools import cached_property
 import json
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from hydra_actuator.channels import Channels
-from hydra_actuator.recording import messages
+from hydra_actuator.recording import labelled, messages
 from hydra_actuator.recording.errors import RecordingError
 from hydra_actuator.recording.metadata import FILE_NAME, mcap_files, read_metadata
 from hydra_actuator.recording.opening import CUSTOM_DATA
@@ -26,6 +28,9 @@ from hydra_actuator.recording.rows import StateTopics
 from hydra_actuator.recording.scan import scan, ScannedFile
 from hydra_actuator.recording.series import Series
 import numpy as np
+
+if TYPE_CHECKING:
+    import xarray
 
 COMMANDS = ('/spool_command', '/commands', '/joint_commands', '/load_force')
 
@@ -129,9 +134,14 @@ class Recording:
         return numbers.reshape(len(numbers), numbers.shape[1] // 2, 2).astype('f4', copy=False)
 
     @cached_property
+    def field_stamps(self) -> np.ndarray:
+        """Stamp of each frame [ns], int64."""
+        return self._one('/field', messages.FLOAT32_ARRAY).stamps
+
+    @cached_property
     def field_time(self) -> np.ndarray:
         """Time of each frame [s], counted like `time`."""
-        stamps = self._one('/field', messages.FLOAT32_ARRAY).stamps
+        stamps = self.field_stamps
         origin = self.row_stamps[:1] if len(self.row_stamps) else stamps[:1]
         return (stamps - origin) / 1e9
 
@@ -149,6 +159,16 @@ class Recording:
     def section_positions(self) -> np.ndarray:
         """Place of each section along the streamline [m]."""
         return np.array(self._json('section_positions'), float)
+
+    @cached_property
+    def dataset(self) -> 'xarray.Dataset':
+        """The states as labelled arrays over time and station; needs xarray. See `labelled`."""
+        return labelled.states(self)
+
+    @cached_property
+    def field_dataset(self) -> 'xarray.Dataset':
+        """The field as labelled arrays over time and node; needs xarray. See `labelled`."""
+        return labelled.field(self)
 
     @cached_property
     def diagnostics(self) -> list[dict]:
