@@ -17,14 +17,20 @@ _FIRST_WALL_STAMP = 365 * 86_400 * 10**9
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the command line."""
     parser.add_argument('recording', help='a recording directory, or one MCAP file')
+    parser.add_argument('--parameters', action='store_true',
+                        help='all parameters, as a ROS parameter file')
 
 
 def run(arguments: Namespace) -> int:
     """Print the description; RecordingError for anything that is no recording."""
     from hydra_actuator.recording.reader import load_recording
 
-    for line in describe(load_recording(arguments.recording)):
+    recording = load_recording(arguments.recording)
+    for line in describe(recording):
         print(line)
+    if arguments.parameters:
+        print()
+        print(recording.custom_data.get('parameters', '').rstrip())
     return 0
 
 
@@ -37,12 +43,34 @@ def describe(recording) -> Iterator[str]:
     yield f'start       {_start(recording.start_ns)}'
     yield f'duration    {(recording.end_ns - recording.start_ns) / 1e9:.3f} s'
     yield f'size        {size / 1e6:.2f} MB in {count} file{"s" if count > 1 else ""}'
+    if count > 1:
+        yield from _files(recording)
+    yield f'dropped     {_dropped(recording)}'
     yield f'source      {recording.custom_data.get("source", "unknown")}'
     yield f'versions    {_versions(recording.custom_data.get("versions", ""))}'
     yield ''
     yield from _topics(recording)
     yield ''
     yield from _parameters(recording.custom_data.get('parameters', ''))
+
+
+def _files(recording) -> Iterator[str]:
+    """Yield a line per file: size, and whether it is finished."""
+    from hydra_actuator.recording.scan import scan
+
+    for path in recording.files:
+        finished = '' if scan(path).finished else ', not finished'
+        yield f'  {path.name}  {path.stat().st_size / 1e6:.2f} MB{finished}'
+
+
+def _dropped(recording) -> str:
+    """Return how many messages the recorder dropped, by its last word on it."""
+    for message in reversed(recording.diagnostics):
+        for status in message['status']:
+            values = {pair['key']: pair['value'] for pair in status['values']}
+            if status['name'].endswith(': Recorder') and 'dropped' in values:
+                return f'{values["dropped"]} messages'
+    return 'none told'
 
 
 def _start(stamp_ns: int) -> str:

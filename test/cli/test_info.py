@@ -90,6 +90,28 @@ def test_info_tells_that_a_recording_is_unfinished(tmp_path, capsys):
     writer.close()
 
 
+def test_info_lists_several_files_and_tells_the_last_count_of_dropped_messages(tmp_path, capsys):
+    writer = record(tmp_path / 'run', {})
+    for dropped in ('3', '7'):
+        status = (0, '/ns/actuator: Recorder', 'ok', 'x', {'dropped': dropped})
+        stamp = WALL + int(dropped)
+        writer.write(TOPICS.diagnostics, stamp, stamp, messages.diagnostic_array(stamp, [status]))
+    writer.close()
+    content = (tmp_path / 'run' / 'run_0.mcap').read_bytes()
+    (tmp_path / 'run' / 'run_1.mcap').write_bytes(content[:-100])
+    text = described(tmp_path / 'run', capsys)
+    assert 'dropped     7 messages\n' in text
+    assert 'in 2 files\n  run_0.mcap  0.0' in text
+    assert ' MB, not finished\n' in text
+
+
+def test_info_prints_all_parameters_when_asked(tmp_path, capsys):
+    parameters = Parameters().as_yaml()
+    record(tmp_path / 'run', {'parameters': parameters}).close()
+    assert main(['info', str(tmp_path / 'run'), '--parameters']) == 0
+    assert capsys.readouterr().out.endswith(f'\n\n{parameters.rstrip()}\n')
+
+
 def test_info_reads_a_lone_file(tmp_path, capsys):
     record(tmp_path / 'run', {'source': 'simulate'}).close()
     assert 'source      simulate\n' in described(tmp_path / 'run' / 'run_0.mcap', capsys)
