@@ -9,7 +9,8 @@ The other side of lockstep: send a command, wait for the state it leads to.
         for _ in range(1000):
             state = actuator.step(-0.5 * state.position[0] / 0.01)
 
-The actuator has to run with `timing.mode` lockstep. The node need not be spun, and may be: no
+The actuator has to run with `timing.mode` lockstep and without `timing.free_wheel`, whose states
+nobody asked for would be taken for answers. The node need not be spun, and may be: no
 executor ever sees the client's subscription. A client of one's own does as well, with any
 publisher that is reliable.
 """

@@ -132,16 +132,15 @@ def test_free_wheeling_it_runs_until_the_first_command_and_waiting_is_told(node_
     node = node_process(*LOCKSTEP, '-p', 'timing.free_wheel:=true', '-p', 'timing.speed:=0.1')
     events = peer.hear(DiagnosticArray, '/actuator/events')
     states = peer.hear(JointState, '/joint_states')
+    command = peer.publisher(Float64, '/actuator/spool_command')
     peer.until(lambda: len(states) > 20)
-    with LockstepClient(peer.node) as client:
-        client.connect()
-        before = stamp(client.step(0.5))
-        peer.until(lambda: stamp(states[-1]) >= before)
-        last = stamp(states[-1])
-        peer.until(lambda: any('waiting for a command' in status.message
-                               for event in events for status in event.status))
-        assert stamp(states[-1]) == last
-        assert stamp(client.step(0.5)) == last + PERIOD_NS
+    peer.send(command, Float64(data=0.5), lambda: states[-1].position[1] > 0.0)
+    peer.until(lambda: any('waiting for a command' in status.message
+                           for event in events for status in event.status))
+    last = stamp(states[-1])
+    command.publish(Float64(data=0.5))
+    peer.until(lambda: stamp(states[-1]) > last)
+    assert stamp(states[-1]) == last + PERIOD_NS
     assert node.end()[0] == 0
     stamps = load_recording(node.recording).row_stamps
     assert set(np.diff(stamps).tolist()) == {PERIOD_NS}
