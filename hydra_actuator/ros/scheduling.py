@@ -13,6 +13,7 @@ import ctypes
 import os
 from pathlib import Path
 import resource
+import threading
 
 from hydra_actuator.parameters import Parameters
 
@@ -93,11 +94,27 @@ def _least_timer_slack() -> None:
 
 
 def _set_priority(priority: int) -> None:
+    """
+    Give the calling thread its priority, and all others of the process the one below.
+
+    Whoever has the interpreter when the solver needs it must not be kept from a processor.
+    """
+    own, below = threading.get_native_id(), os.sched_param(max(1, priority - 1))
     try:
         os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
+        for thread in map(int, os.listdir('/proc/self/task')):
+            if thread != own:
+                _set_if_alive(thread, below)
     except PermissionError as error:
         limit = resource.getrlimit(resource.RLIMIT_RTPRIO)[0]
         raise PermissionError(f'{error.strerror}; the limit rtprio is {_limit(limit)}') from None
+
+
+def _set_if_alive(thread: int, priority: os.sched_param) -> None:
+    try:
+        os.sched_setscheduler(thread, os.SCHED_FIFO, priority)
+    except ProcessLookupError:
+        return
 
 
 def _set_affinity(cores: Sequence[int]) -> None:

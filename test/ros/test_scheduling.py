@@ -12,7 +12,7 @@ import pytest
 CORE = min(os.sched_getaffinity(0))
 
 ASK = """
-import json, os, resource, sys
+import json, os, resource, sys, threading
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.ros.scheduling import lock_memory, prepare_thread
 resource.setrlimit(resource.RLIMIT_RTPRIO, (0, 0))
@@ -20,8 +20,11 @@ resource.setrlimit(resource.RLIMIT_MEMLOCK, (65536, 65536))
 if sys.argv[2] == 'without' and os.geteuid() == 0:
     os.setresuid(65534, 65534, 65534)
 parameters = Parameters().replace(json.loads(sys.argv[1]))
+other = threading.Thread(target=threading.Event().wait, daemon=True)
+other.start()
 told = lock_memory(parameters) | prepare_thread(parameters)
 told['scheduler'] = [os.sched_getscheduler(0), os.sched_getparam(0).sched_priority]
+told['other'] = os.sched_getparam(other.native_id).sched_priority
 told['cores'] = sorted(os.sched_getaffinity(0))
 print(json.dumps(told))
 """
@@ -78,6 +81,8 @@ def test_what_is_granted_holds():
     assert refusals(told) == []
     assert told['thread_priority_obtained'] == 'SCHED_FIFO 7'
     assert told['scheduler'] == [os.SCHED_FIFO, 7]
+    # Whoever has the interpreter when the solver needs it must get a processor, too.
+    assert told['other'] == 6
     assert told['cpu_affinity_obtained'] == str(CORE)
     assert int(told['lock_memory_obtained'].removesuffix(' kB')) > 1000
 
@@ -85,4 +90,6 @@ def test_what_is_granted_holds():
 def test_nothing_but_timer_slack_is_asked_without_a_wish():
     told = asked({}, 'without')
     assert told['timer_slack_obtained'] == '1 ns'
-    assert set(told) == {'timer_slack_requested', 'timer_slack_obtained', 'scheduler', 'cores'}
+    assert set(told) == {
+        'timer_slack_requested', 'timer_slack_obtained', 'scheduler', 'other', 'cores'}
+    assert told['other'] == 0
