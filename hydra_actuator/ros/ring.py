@@ -92,9 +92,14 @@ class Ring:
             2 * (self._frames_written - self._frames_read) <= len(self._field)), timeout)
 
     def is_read(self, timeout: float) -> bool:
-        """Wait until nothing is unread, at most `timeout` [s]; tell whether it is so."""
-        return self._wait_for(lambda: self._written == self._read and (
-            self._frames_written == self._frames_read), timeout)
+        """
+        Wait until all that is there now is read, at most `timeout` [s]; tell whether it is so.
+
+        What is added meanwhile does not count: a reader that lags by a few ticks is never done.
+        """
+        ticks, frames = self._written, self._frames_written
+        return self._wait_for(
+            lambda: self._read >= ticks and self._frames_read >= frames, timeout)
 
     def wait(self, timeout: float) -> None:
         """Wait until signalled, at most `timeout` [s]; for the reader only."""

@@ -104,7 +104,8 @@ def test_faults_are_live_loud_and_cleared_and_the_emergency_stop_lasts(node_proc
     assert faults_status(heard)[1] == (
         'at work: fault.null_shift, fault.position.off, fault.velocity.offset')
 
-    assert peer.call(Trigger, '/actuator/reset').success
+    answer = peer.call(Trigger, '/actuator/reset')
+    assert answer.success, node.text
     peer.until(lambda: math.isnan(states[-1].position[0]))
     assert peer.call(Trigger, '/actuator/clear_faults').success
     peer.until(lambda: not math.isnan(states[-1].position[0]))

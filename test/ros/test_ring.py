@@ -47,6 +47,21 @@ def test_a_writer_with_time_waits_until_half_is_read():
     reader.join()
 
 
+def test_a_reader_that_always_lags_has_read_what_was_there_when_it_was_asked():
+    ring, answers = Ring(4, 1, length=8), []
+    fill(ring, 0, 3)
+    asking = threading.Thread(target=lambda: answers.append(ring.is_read(5.0)))
+    asking.start()
+    number = 3
+    while asking.is_alive():
+        reading = ring.ticks()
+        next(reading)
+        fill(ring, number, number + 1)
+        list(reading)
+        number += 1
+    assert answers == [True]
+
+
 def test_frames_keep_their_own_values():
     ring = Ring(4, 3, frames=4)
     for number in range(3):
