@@ -25,6 +25,7 @@ setup(
         (f'share/{NAME}', ['package.xml']),
         (f'share/{NAME}/config', sorted(glob('config/*'))),
         (f'share/{NAME}/launch', sorted(glob('launch/*.py'))),
+        (f'share/{NAME}/examples', sorted(glob('examples/*.py'))),
     ],
     python_requires='>=3.11,<3.14',
     install_requires=[

@@ -13,7 +13,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PACKAGE_XML = ElementTree.parse(ROOT / 'package.xml').getroot()
 # What the installation is made of; the folders of the package come with it whole.
-SOURCES = ('hydra_actuator', 'config', 'launch', 'resource')
+SOURCES = ('hydra_actuator', 'config', 'launch', 'resource', 'examples')
 FILES = ('setup.py', 'setup.cfg', 'package.xml')
 
 
@@ -45,7 +45,7 @@ def test_package_is_in_the_index_of_ament(installed):
     assert (installed / 'share/hydra_actuator/package.xml').exists()
 
 
-@pytest.mark.parametrize('folder', ['config', 'launch'])
+@pytest.mark.parametrize('folder', ['config', 'launch', 'examples'])
 def test_shipped_files_are_installed(installed, folder):
     source = {path.name for path in (ROOT / folder).glob('*.*')}
     target = {path.name for path in (installed / 'share/hydra_actuator' / folder).glob('*.*')}

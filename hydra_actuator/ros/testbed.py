@@ -25,7 +25,7 @@ import rclpy
 from rclpy.context import Context
 
 # The first start on a machine compiles the solver; a node that is active answers soon.
-START_PATIENCE = 240.0
+START_PATIENCE = 600.0
 ANSWER_PATIENCE = 60.0
 
 

@@ -1,14 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """The fixtures without middleware, and what the plugin costs those who do not use it."""
 
+import itertools
 from pathlib import Path
 import subprocess
 import sys
+import textwrap
 
 from hydra_actuator.parameters import ParameterError
 import pytest
 
+DOCUMENT = Path(__file__).parents[2] / 'docs/testing.md'
 HEAVY = {'numpy', 'numba', 'yaml', 'rclpy'}
+
+
+def documented(title):
+    """Return the first block of code below a title of docs/testing.md."""
+    lines = DOCUMENT.read_text().partition(f'## {title}\n\n')[2].splitlines()
+    code = itertools.takewhile(lambda line: not line or line.startswith('    '), lines)
+    return textwrap.dedent('\n'.join(code))
 
 
 def pytest_in(folder, arguments, modules):
@@ -30,10 +40,9 @@ def test_collecting_in_an_empty_folder_loads_the_plugin_and_nothing_heavy(tmp_pa
 
 
 def test_a_test_elsewhere_finds_the_fixtures_and_loads_no_ros(tmp_path):
-    Path(tmp_path / 'test_mine.py').write_text(
-        'def test_mine(make_actuator):\n'
-        '    actuator = make_actuator({"solver.cells": 60})\n'
-        '    assert actuator.advance(0.002, spool=0.5).position > 0.0\n')
+    # The example of the documentation, copied and pasted.
+    (tmp_path / 'position_controller.py').write_text(documented('A controller to test'))
+    (tmp_path / 'test_mine.py').write_text(documented('Without middleware'))
     done, loaded = pytest_in(tmp_path, ['-q', '--strict-markers'], HEAVY)
     assert done.returncode == 0, done.stdout + done.stderr
     assert '1 passed' in done.stdout
