@@ -16,7 +16,7 @@ from contextlib import contextmanager, ExitStack
 import os
 from pathlib import Path
 
-from hydra_actuator.errors import Failure
+from hydra_actuator.errors import Failure, InputError
 from hydra_actuator.parameters import load_parameters
 from hydra_actuator.ros.child import ChildNode
 from hydra_actuator.ros.client import LockstepClient
@@ -65,12 +65,14 @@ class Testbed:
         Start a node and return it once it is active.
 
         It has the parameters of the files, then of `overrides`; only these can have it record,
-        into the folder of the testbed unless they say where. Raises ParameterError, or Failure
-        with the node's last words if it does not come up.
+        into the folder of the testbed unless they say where. Raises InputError for what cannot
+        be, Failure with the node's last words if it does not come up.
         """
         parameters = load_parameters(*files, overrides={
             'recording.enabled': False, 'recording.directory': str(self._folder / 'recordings'),
-            **overrides, 'autostart': True})
+            **overrides})
+        if not parameters['autostart']:
+            raise InputError('autostart is false: a node of a testbed has to become active')
         path = self._folder / f'node_{len(self._children)}.yaml'
         path.write_text(parameters.as_yaml())
         remapping = ['-r', f'__ns:={namespace}'] if namespace else []
@@ -85,6 +87,9 @@ class Testbed:
         namespace: str = '',
     ) -> LockstepClient:
         """Start a node in lockstep, as `start` does; return its client, not yet connected."""
+        mode = overrides.get('timing.mode', 'lockstep')
+        if mode != 'lockstep':
+            raise InputError(f'timing.mode is {mode}: a client steps a node in lockstep only')
         self.start({**overrides, 'timing.mode': 'lockstep'}, files=files, namespace=namespace)
         if self._context is None:
             self._context = Context()

@@ -4,7 +4,7 @@
 import os
 from pathlib import Path
 
-from hydra_actuator.errors import Failure
+from hydra_actuator.errors import Failure, InputError
 from hydra_actuator.parameters import ParameterError
 from hydra_actuator.ros.testbed import Testbed
 import pytest
@@ -73,9 +73,14 @@ def test_a_node_that_ends_by_itself_fails_the_test(tmp_path):
             pass
 
 
-def test_a_node_that_cannot_start_says_why(start_actuator, tmp_path):
+def test_a_node_that_cannot_start_says_why(
+        start_actuator, make_actuator_node, tmp_path):
     with pytest.raises(ParameterError, match=r'solver\.cels'):
         start_actuator({'solver.cels': 60})
+    with pytest.raises(InputError, match='autostart is false'):
+        start_actuator({'autostart': False})
+    with pytest.raises(InputError, match=r'timing\.mode is free_run'):
+        make_actuator_node({'timing.mode': 'free_run'})
     (tmp_path / 'file').touch()
     with pytest.raises(Failure, match=r'the node does not start; it said: .*file'):
         start_actuator({**COARSE, 'recording.enabled': True,
