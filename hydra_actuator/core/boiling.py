@@ -3,7 +3,8 @@
 Where the oil boils: how large the cavities are, how many are open, how many opened and collapsed.
 
 A place is a whole node of a domain or the face of a chamber. Its gas is V = held room / p*, with
-held = alpha0 (ambient - p_v) and room its cell A dx (half of it at an end); its void fraction is
+held = alpha0 (ambient - p_v) and room its cell A dx (half of it at a fixed end; at a face half a
+cell and all from the last whole node on, which has none then). Its void fraction is
 held / p*; above 1 a lumped cavity has outgrown its cell.
 
     volume of cavities   gas beyond what it takes at ambient pressure, where p is below ambient
@@ -31,12 +32,15 @@ VOLUME, LOWEST, OPEN, OPENED, COLLAPSED, OF_DOMAINS = range(6)
 def gas_volumes(model, state, d: int) -> np.ndarray:
     """Return the gas [m^3] at the whole nodes of a domain with gas, then at its moving face."""
     first, last = model.start[d], model.start[d] + state.last[d]
-    star = np.array(state.star[first:last + 1])
+    half = half_a_cell(model, d)
+    volumes = 2.0 * half / state.star[first:last + 1]
+    volumes[0] *= 0.5
     if model.moving[d]:
-        star = np.append(star, state.end_star[2 * d + 1])
-    gas = np.full(len(star), 2.0 * half_a_cell(model, d))
-    gas[[0, -1]] *= 0.5
-    return gas / star
+        # the last whole node's gas is at the face
+        volumes[-1] = 0.0
+        return np.append(volumes, state.face_held[d] * model.step_time * model.area[d])
+    volumes[-1] *= 0.5
+    return volumes
 
 
 def half_a_cell(model, d: int) -> float:
@@ -51,8 +55,13 @@ def domain_cavity_volume(model, state, d):
     at_ambient = 1.0 / model.floor
     first, last = model.start[d], model.start[d] + state.last[d]
     total = max(1.0 / state.end_star[2 * d] - at_ambient, 0.0)
-    total += max(1.0 / state.end_star[2 * d + 1] - at_ambient, 0.0)
-    for i in range(first + 1, last + model.moving[d]):
+    if model.moving[d] == 1:
+        held = state.face_held[d] / model.end_strength[d]
+        beyond = state.old_length[d] / model.spacing[d] - state.last[d]
+        total += max(held - (1.0 + 2.0 * beyond) * at_ambient, 0.0)
+    else:
+        total += max(1.0 / state.end_star[2 * d + 1] - at_ambient, 0.0)
+    for i in range(first + 1, last):
         total += 2.0 * max(1.0 / state.star[i] - at_ambient, 0.0)
     return half * total
 

@@ -6,6 +6,11 @@ Free gas and vapour: a cavity at every node and at every end (discrete gas cavit
     inside a line   V_new - V_old = (A dx/c) (2 mu - P - Q)
     at an end       V_new - V_old = dt A (v_boundary - v_line),  v_line = W - mu, half a cell
 
+The last whole node of a chamber has no gas of its own: less than a cell lies between it and the
+moving face, and gas at both would throw waves to and fro within a step. The face has it all, half
+a cell and what lies beyond that node, and hands a cell's over to a node that gets another
+neighbour. What is kept is volume; the amount grows and shrinks with the chamber.
+
 P, Q, W are the waves that arrive; what leaves a node is 2 mu - Q and 2 mu - P. It is A dx/c, not
 A dt, which on an interpolated grid would be too strong by one over the Courant number. In
 velocity units both read
@@ -20,11 +25,13 @@ Neglected: growth of bubbles, solution and release of gas, vapour's own mass.
 import math
 
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.fluid import compression_series
+from hydra_actuator.core.fluid import compression_series, relative_compression
 
 # Rounds of `gas_balance` inside a line, where two leave 3e-9 of p* at a jump of 1 m/s in one step
 # and 2e-13 at 0.1 m/s, and at ends, where the laws of the boundaries hold to 1e-10.
 ROUNDS_INSIDE, ROUNDS_AT_END = 2, 3
+# Of mu/c: where the series for the oil's pressure still is good to 3e-6, far beyond any oil.
+STIFFEST = 1.5
 
 
 @formula
@@ -35,16 +42,20 @@ def gas_balance(waves, strength, floor, oil, rounds):
     waves: (free, held) [m/s], strength [Pa m/s] as above; floor: ambient - p_v [Pa], which makes
     p* = p + floor; oil: (slowness 1/c [s/m], bulk modulus [Pa]). The unknown is the new volume
     strength/p*: each round takes the oil's pressure as linear in it, which leaves a quadratic
-    with one positive root. The volume balances to rounding, whatever the rounds.
+    with one positive root. The first is about oil that the gas leaves alone, but never about a
+    pressure below vapour's, where oil cannot be. The volume balances to rounding, whatever the
+    rounds.
     """
     free, held = waves
     slowness, bulk_modulus = oil
     mu = free
     volume = held
+    deepest = -floor / bulk_modulus
     for _ in range(rounds):
-        compression = compression_series(mu * slowness)
+        z = min(max(mu * slowness, deepest), STIFFEST)
+        compression = compression_series(z)
         steepness = bulk_modulus * slowness * (1.0 + compression)
-        linear = bulk_modulus * compression + floor - steepness * (mu - free + held)
+        linear = bulk_modulus * compression + floor - steepness * (z / slowness - free + held)
         root = abs(linear) + math.sqrt(linear * linear + 4.0 * steepness * strength)
         above = linear >= 0.0
         volume = ((2.0 * strength if above else root)
@@ -60,7 +71,7 @@ def fill_cavities(model, state):
 
     Where strength is 0 (ends, spare nodes) the waves stay as they are.
     """
-    new_p, new_q, star, strength = state.new_p, state.new_q, state.star, model.strength
+    new_p, new_q, star, strength = state.new_p, state.new_q, state.star, state.strength
     slowness, bulk_modulus = model.node_slowness, model.node_bulk_modulus
     for i in range(new_p.size):
         p, q = new_p[i], new_q[i]
@@ -71,3 +82,43 @@ def fill_cavities(model, state):
         new_p[i] = p if empty else 2.0 * mu - q
         new_q[i] = q if empty else 2.0 * mu - p
         star[i] = star[i] if empty else pressure
+
+
+@formula
+def face_strength(model, state, d):
+    """Return the gas's strength [Pa m/s] at a moving face, at the level before the step."""
+    beyond = state.old_length[d] / model.spacing[d] - state.last[d]
+    return model.end_strength[d] * (1.0 + 2.0 * max(beyond, -0.4))
+
+
+@formula
+def share_face_gas(model, state, d, before):
+    """
+    Give gas to nodes that are no longer next to the moving face, or take it from one that is now.
+
+    before: the last whole node at the old level. old_length, last and end_star are new.
+    """
+    start, last = model.start[d], state.last[d]
+    cell = 2.0 * model.end_strength[d]
+    if last > before:
+        # one pressure for all that shares the old volume
+        share = face_strength(model, state, d)
+        star = (share + cell * (last - before)) / state.face_held[d]
+        for i in range(start + before, start + last):
+            state.strength[i] = model.strength[i]
+            state.star[i] = star
+        state.face_held[d] = share / star
+    for i in range(start + last, start + before):
+        state.strength[i] = 0.0
+        state.face_held[d] += cell / state.star[i]
+
+
+@formula
+def read_beside_faces(model, state):
+    """Write p* [Pa] of the last whole node of chambers: the oil's own, where that is not lower."""
+    for d in range(model.start.size):
+        if model.moving[d] == 1:
+            i = model.start[d] + state.last[d]
+            z = 0.5 * (state.new_p[i] + state.new_q[i]) * model.slowness[d]
+            own = model.bulk_modulus[d] * relative_compression(z) + model.floor
+            state.star[i] = max(own, min(state.end_star[2 * d + 1], state.star[i - 1]))

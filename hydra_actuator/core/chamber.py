@@ -101,8 +101,7 @@ def renew_last_nodes(model, state, domain, new_last, returned, passes):
     """
     Write the wave that left the face into the nodes its path feeds, from old last to new.
 
-    returned: the wave that leaves the face now [m/s]. A node that appears takes over the gas
-    pressure of its neighbour.
+    returned: the wave that leaves the face now [m/s].
     """
     start, old_last = model.start[domain], state.last[domain]
     end = 2 * domain + 1
@@ -118,5 +117,3 @@ def renew_last_nodes(model, state, domain, new_last, returned, passes):
             q = wave_from_face(state.face_q[domain], returned, lag, model.third_order)
             here = 0.5 * (p - q)
         state.new_q[start + node] = q
-        if len(model.extras) > 0:
-            state.star[start + node] = state.star[start + old_last]

@@ -5,6 +5,7 @@ The junctions: which ends meet, and which formula answers them with outflow velo
 A junction sees Ends (a wave and an impedance each), never a mesh.
 """
 
+from hydra_actuator.core.cavity import face_strength
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.end import End
 from hydra_actuator.core.orifice import solve_orifice
@@ -33,7 +34,9 @@ def end_of(model, state, end):
             model.bulk_modulus[d], model.area[d], model.impedance[d], model.inverse_area[d],
             0.0, 0.0, 0.0)
     strength, held = model.end_strength[d], 0.0
-    if strength > 0.0:
+    if strength > 0.0 and model.moving[d] == 1 and end % 2 == 1:
+        strength, held = face_strength(model, state, d), state.face_held[d]
+    elif strength > 0.0:
         held = strength / state.end_star[end]
     return End(
         state.end_wave[end], state.end_velocity[end], model.slowness[d], model.bulk_modulus[d],

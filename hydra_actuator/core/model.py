@@ -10,6 +10,7 @@ from its fixed end and a partial one at the face.
 from dataclasses import dataclass
 import math
 
+from hydra_actuator.core.cavity import face_strength
 from hydra_actuator.core.friction import TERMS
 from hydra_actuator.core.line import GHOSTS, GHOSTS_BEYOND_FACE
 from hydra_actuator.core.oil import friction_constants, gas_constants, has_table, Oil
@@ -159,6 +160,10 @@ def set_domain(model: Model, state: State, d: int, wave_p, wave_q) -> None:
     if model.end_strength[d] > 0.0:
         state.star[nodes] = star
         state.end_star[2 * d], state.end_star[2 * d + 1] = state.star[first], state.star[last]
+        state.strength[nodes] = model.strength[nodes]
+        if model.moving[d]:
+            state.strength[last:nodes.stop] = 0.0
+            state.face_held[d] = face_strength.py_func(model, state, d) / state.star[last]
 
 
 def node_positions(model: Model, state: State, d: int) -> np.ndarray:
@@ -206,7 +211,8 @@ def _empty_state(domains: int, nodes: int) -> State:
         drag=np.zeros(nodes), new_drag=np.zeros(nodes), memory=np.zeros((TERMS, nodes)),
         fading=np.zeros(nodes), change=np.zeros(nodes), velocity=np.zeros(nodes),
         place=np.zeros(nodes), damping=np.zeros(nodes), star=np.ones(nodes),
-        end_star=np.ones(2 * domains), lowest_star=np.full(nodes + domains, np.inf),
+        end_star=np.ones(2 * domains), strength=np.zeros(nodes), face_held=np.zeros(domains),
+        lowest_star=np.full(nodes + domains, np.inf),
         was_open=np.zeros(nodes + domains, np.int64), cavities=np.zeros(1, CAVITY_COUNTS),
         spool=np.zeros(4), edge_coefficient=np.zeros(4),
         valve_velocity=np.zeros(4), ring=np.zeros((6, 4)), piston=np.zeros(1, PISTON_STATE),

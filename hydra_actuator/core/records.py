@@ -131,6 +131,8 @@ class State(NamedTuple):
     damping: np.ndarray         # (N,) work: h [1/s]
     star: np.ndarray            # (N,) absolute less vapour pressure where there is gas [Pa]
     end_star: np.ndarray        # (2 D,) the same at the ends
+    strength: np.ndarray        # (N,) the model's, 0 where a moving face has the node's gas
+    face_held: np.ndarray       # (D,) gas at moving faces by volume, as a velocity [m/s]
     lowest_star: np.ndarray     # (N + D,) lowest since cavities were counted, faces last [Pa]
     was_open: np.ndarray        # (N + D,) int64: 1 where a cavity was open then
     cavities: np.ndarray        # (1,) CAVITY_COUNTS
@@ -153,6 +155,7 @@ def flip(state):
         state.end_velocity, state.end_velocity_before, state.end_theta, state.face_p,
         state.face_q, state.theta_p, state.theta_q, state.drag, state.new_drag, state.memory,
         state.fading, state.change, state.velocity, state.place, state.damping,
-        state.star, state.end_star, state.lowest_star, state.was_open, state.cavities, state.spool,
+        state.star, state.end_star, state.strength, state.face_held, state.lowest_star,
+        state.was_open, state.cavities, state.spool,
         state.edge_coefficient, state.valve_velocity, state.ring, state.piston,
         state.oil_stored, state.step, state.fault)

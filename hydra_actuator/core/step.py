@@ -8,7 +8,7 @@ One time step of a chain, as a list of stages; formulas live in the files they a
 
 import math
 
-from hydra_actuator.core.cavity import fill_cavities
+from hydra_actuator.core.cavity import fill_cavities, read_beside_faces, share_face_gas
 from hydra_actuator.core.chamber import extend_to_face, renew_last_nodes, wave_at_face
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.drag import drag_at, remember_drag, sweep_with_drag
@@ -147,7 +147,10 @@ def returned_wave(model, state, end):
     """Return the wave [m/s] that leaves an end after the junctions, and keep its gas pressure."""
     if len(model.extras) == 0 or model.end_strength[end // 2] == 0.0:
         return state.end_wave[end] - 2.0 * state.end_velocity[end]
-    mu, state.end_star[end] = state_at(end_of(model, state, end), state.end_velocity[end])
+    at = end_of(model, state, end)
+    mu, state.end_star[end] = state_at(at, state.end_velocity[end])
+    if model.moving[end // 2] == 1 and end % 2 == 1:
+        state.face_held[end // 2] = at.strength / state.end_star[end]
     return 2.0 * mu - state.end_wave[end]
 
 
@@ -157,7 +160,8 @@ def take_new_level(model, state, passes):
     for d in range(model.start.size):
         first, left = model.start[d], 2 * d
         right = left + 1
-        new_last = state.last[d]
+        before = state.last[d]
+        new_last = before
         state.new_q[first] = state.end_wave[left]
         state.new_p[first] = returned_wave(model, state, left)
         returned = returned_wave(model, state, right)
@@ -174,6 +178,8 @@ def take_new_level(model, state, passes):
             state.face_p[d] = state.end_wave[right]
             state.old_length[d] = state.length[d]
             state.old_velocity[d] = state.end_velocity[right]
+            if len(model.extras) > 0 and model.end_strength[d] > 0.0:
+                share_face_gas(model, state, d, before)
         else:
             state.new_p[first + new_last] = state.end_wave[right]
             state.new_q[first + new_last] = returned
@@ -182,6 +188,7 @@ def take_new_level(model, state, passes):
     if len(model.extras) > 0:
         if model.gas == 1:
             fill_cavities(model, state)
+            read_beside_faces(model, state)
         if model.tabled == 1:
             remember_drag(model, state, len(passes) > 1)
     motion = state.piston[0]

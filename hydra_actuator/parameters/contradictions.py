@@ -102,6 +102,8 @@ def _compression(values: Mapping[str, Value]) -> Iterator[str]:
     for line, names in places.items():
         modulus = values['fluid.density'] * wave_speed(values, line) ** 2
         soft = modulus < values['fluid.bulk_modulus'] * (1.0 - 1e-9)
+        if values['fluid.cavitation']:
+            names = (*names, 'ambient_pressure')
         for name in names:
             if values[name] > _MOST_COMPRESSION * modulus:
                 wall = f', with {line}.youngs_modulus = {values[f"{line}.youngs_modulus"]}'

@@ -4,6 +4,7 @@
 from hydra_actuator.channels import Channels
 from hydra_actuator.core.advance import advance
 from hydra_actuator.core.boiling import CLOSES, count_cavities, gas_volumes, OPENS
+from hydra_actuator.core.cavity import share_face_gas
 from hydra_actuator.core.model import Domain, Junction, Mesh
 from hydra_actuator.core.observe import observe, SECTION
 from hydra_actuator.core.oil import Oil
@@ -186,3 +187,19 @@ def test_without_gas_there_are_no_cavities_but_a_lowest_pressure():
     assert row[channels.lowest_pressure] < -3e5
     others = np.delete(row[channels.cavities], 1)
     assert not others.any()
+
+
+def test_gas_between_face_and_last_node_keeps_its_volume_when_a_node_comes_or_goes(cylinder):
+    model, state = cylinder.model, cylinder.state
+    cylinder.hold(-2000.0)
+    cylinder.advance(60)
+    for change in (1, -1):
+        before = int(state.last[0])
+        volume = gas_volumes(model, state, 0).sum()
+        state.last[0] = before + change
+        state.old_length[0] = (state.last[0] + 0.3) * model.spacing[0]
+        share_face_gas(model, state, 0, before)
+        assert gas_volumes(model, state, 0).sum() == pytest.approx(volume, rel=1e-12)
+        inner = slice(model.start[0] + 1, model.start[0] + state.last[0])
+        assert (state.strength[inner] > 0.0).all()
+        assert state.strength[inner.stop] == 0.0

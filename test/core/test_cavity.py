@@ -75,3 +75,16 @@ def test_pulled_oil_opens_cavities_and_stays_above_vapour_pressure():
         chain.advance(5)
         lowest = min(lowest, chain.end_pressure(1), float(chain.state.star[2:103].min()) - FLOOR)
     assert -FLOOR < lowest < -0.9 * FLOOR
+
+
+@given(st.floats(-2.0, 0.3), st.floats(-7.0, -1.0), st.floats(0.0, 8.0))
+def test_oil_pulled_far_beyond_what_it_bears_boils(pull, exponent, star_exponent):
+    strength = 0.5 * SPEED * 10.0 ** exponent * FLOOR
+    held = strength / 10.0 ** star_exponent
+    free = pull * SPEED
+    mu, star = gas_balance((free, held), strength, FLOOR, OIL, ROUNDS_AT_END)
+    assert 0.0 < star < math.inf
+    assert mu == pytest.approx(free - held + strength / star, rel=1e-9, abs=1e-6)
+    if free - held < -1.0:
+        # what the oil cannot follow is gas, at less than ambient pressure
+        assert star < FLOOR

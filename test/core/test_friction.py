@@ -84,3 +84,7 @@ def test_memory_does_not_depend_on_how_time_is_cut(step):
     decay, _, _ = memory_constants(0.008, VISCOSITY, step)
     rate = VISCOSITY / 0.008 ** 2
     assert decay == pytest.approx(np.exp(-np.array(DECAY) * rate * step), rel=1e-12)
+
+
+def test_what_is_no_number_has_a_place_in_the_table_and_stays_no_number():
+    assert math.isnan(drag(math.nan))
