@@ -6,6 +6,7 @@ The gas appears, or goes, at the pressure that there is: no pressure and no velo
 oil only becomes softer or stiffer.
 """
 
+from hydra_actuator.core.cavity import face_strength
 from hydra_actuator.core.line import GHOSTS, GHOSTS_BEYOND_FACE
 from hydra_actuator.core.oil import gas_constants, Oil
 from hydra_actuator.core.records import Model, State
@@ -31,6 +32,8 @@ def set_gas(model: Model, state: State, air_fraction: float) -> Model:
         if not had_gas:
             _begin_at_the_pressure_there_is(model, state, d)
     model.end_strength[:] = end_strength
+    for d in range(len(model.start)):
+        place_gas(model, state, d)
     if air_fraction > 0.0:
         return model._replace(gas=1, extras=(1,))
     counts = state.cavities
@@ -39,6 +42,15 @@ def set_gas(model: Model, state: State, air_fraction: float) -> Model:
     state.was_open[:] = 0
     state.lowest_star[:] = np.inf
     return model._replace(gas=0, extras=(1,) if model.tabled else ())
+
+
+def place_gas(model: Model, state: State, d: int) -> None:
+    """Give a domain's gas to its nodes, and that beside a moving face to the face, at their p*."""
+    first, end = model.start[d], model.start[d] + model.capacity[d] + 1
+    state.strength[first:end] = model.strength[first:end]
+    if model.moving[d]:
+        state.strength[first + state.last[d]:end] = 0.0
+        state.face_held[d] = face_strength.py_func(model, state, d) / state.end_star[2 * d + 1]
 
 
 def _begin_at_the_pressure_there_is(model: Model, state: State, d: int) -> None:

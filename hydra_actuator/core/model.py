@@ -10,8 +10,8 @@ from its fixed end and a partial one at the face.
 from dataclasses import dataclass
 import math
 
-from hydra_actuator.core.cavity import face_strength
 from hydra_actuator.core.friction import TERMS
+from hydra_actuator.core.gas import place_gas
 from hydra_actuator.core.line import GHOSTS, GHOSTS_BEYOND_FACE
 from hydra_actuator.core.oil import friction_constants, gas_constants, has_table, Oil
 from hydra_actuator.core.records import (
@@ -160,10 +160,7 @@ def set_domain(model: Model, state: State, d: int, wave_p, wave_q) -> None:
     if model.end_strength[d] > 0.0:
         state.star[nodes] = star
         state.end_star[2 * d], state.end_star[2 * d + 1] = state.star[first], state.star[last]
-        state.strength[nodes] = model.strength[nodes]
-        if model.moving[d]:
-            state.strength[last:nodes.stop] = 0.0
-            state.face_held[d] = face_strength.py_func(model, state, d) / state.star[last]
+        place_gas(model, state, d)
 
 
 def node_positions(model: Model, state: State, d: int) -> np.ndarray:
