@@ -8,18 +8,16 @@ piston the line between the two chambers.
 
 from hydra_actuator.analysis import streamline
 from hydra_actuator.analysis.decimation import bucket_extremes
-from hydra_actuator.analysis.figure import Figure, MEGAPASCAL, MILLI
+from hydra_actuator.analysis.figure import Figure, MILLI
 from hydra_actuator.analysis.palette import INK, PRESSURE_SCALE, VELOCITY_SCALE
 from hydra_actuator.analysis.series import Field, Series
+from hydra_actuator.analysis.units import Scale, SI, Units
 from hydra_actuator.analysis.window import Window
 import numpy as np
 
 SURFACE_FRAMES, MAP_FRAMES, WHOLE_RUN_ROWS, COLUMNS = 240, 420, 210, 360
 
-QUANTITIES = {
-    'pressure': ('pressure', 'MPa abs', MEGAPASCAL),
-    'velocity': ('velocity', 'm/s', 1.0),
-}
+QUANTITIES = ('pressure', 'velocity')
 
 
 def thinned(field: Field, frames: int) -> Field:
@@ -31,19 +29,24 @@ def thinned(field: Field, frames: int) -> Field:
     )
 
 
-def surface(series: Series, field: Field, shown: Window, quantity: str) -> Figure:
+def surface(series: Series, field: Field, shown: Window, quantity: str,
+            units: Units = SI) -> Figure:
     """Return the surface of 'pressure' or 'velocity' over streamline and time."""
-    name, unit, scale = QUANTITIES[quantity]
+    scale: Scale = getattr(units, quantity)
     part = thinned(field.between(shown.start, shown.end), SURFACE_FRAMES)
     piston = np.interp(part.time, series.time, series.position)
-    values = streamline.gapless(part, getattr(part, quantity)) * scale
-    time = (part.time - shown.start) * MILLI
+    values = scale(streamline.gapless(part, getattr(part, quantity)))
+    moment, label = units.since(shown.start)
+    time = moment(part.time)
     ends = streamline.boundaries(field)
     trace = {
-        'type': 'surface', 'name': name, 'x': streamline.node_positions(part, piston),
+        'type': 'surface', 'name': quantity,
+        'x': units.place(streamline.node_positions(part, piston)),
         'y': np.tile(time[:, None], (1, values.shape[1])), 'z': values,
         'showscale': False,
-        'hovertemplate': f'x %{{x:.3f}} m<br>%{{y:.2f}} ms<br>%{{z:.3f}} {unit}<extra></extra>',
+        'hovertemplate': (
+            f'x %{{x:.3f}} {units.place.unit}<br>%{{y:.2f}} {moment.unit}<br>'
+            f'%{{z:.3f}} {scale.unit}<extra></extra>'),
         'lighting': {'ambient': 0.75, 'diffuse': 0.5, 'specular': 0.1, 'roughness': 0.9},
         'contours': {'x': {'highlight': False}, 'z': {'highlight': False}},
         **_surface_colours(quantity, values),
@@ -51,73 +54,77 @@ def surface(series: Series, field: Field, shown: Window, quantity: str) -> Figur
     scene = {
         'aspectmode': 'manual', 'aspectratio': {'x': 1.5, 'y': 1.2, 'z': 0.75},
         'camera': {'eye': {'x': 1.25, 'y': -1.82, 'z': 0.9}, 'center': {'x': -0.03, 'z': -0.13}},
-        'xaxis': {'title': {'text': 'x: pump to tank'}, 'tickvals': [x for x, _ in ends],
+        'xaxis': {'title': {'text': 'x: pump to tank'},
+                  'tickvals': [float(units.place(x)) for x, _ in ends],
                   'ticktext': [letters for _, letters in ends]},
-        'yaxis': {'title': {'text': 'time [ms]'}},
-        'zaxis': {'title': {'text': unit}},
+        'yaxis': {'title': {'text': label}},
+        'zaxis': {'title': {'text': scale.unit or scale.symbol}},
     }
     return Figure(
-        f'surface_{quantity}', f'{name.capitalize()} over streamline and time',
+        f'surface_{quantity}', f'{quantity.capitalize()} over streamline and time',
         f'{span(shown)}, from {origin(part)}. Drag to turn, double-click to reset.',
         [trace], {'scene': scene}, height=480, wide=False,
     )
 
 
 def wave_map(series: Series, field: Field, shown: Window, quantity: str,
-             waves: bool = False) -> Figure:
+             waves: bool = False, units: Units = SI) -> Figure:
     """
     Return the x-t map of 'pressure' or 'velocity' in a window, with the piston's path.
 
     Two views: the quantity itself, and its difference from the window's mean at each place, in
     which waves stand out; `waves` shows the second one first.
     """
-    name, unit, scale = QUANTITIES[quantity]
+    scale: Scale = getattr(units, quantity)
     part = thinned(field.between(shown.start, shown.end), MAP_FRAMES)
     x = streamline.node_positions(part, np.interp(part.time, series.time, series.position))
     grid = np.linspace(field.positions.min(), field.positions.max(), COLUMNS)
-    values = streamline.on_even_grid(
-        x, streamline.gapless(part, getattr(part, quantity)), grid,
-    ) * scale
-    time = (part.time - shown.start) * MILLI
-    itself = _heatmap(grid, time, values, quantity)
-    difference = _heatmap(grid, time, values - values.mean(axis=0), 'velocity')
-    unit = unit.removesuffix(' abs')
-    difference['hovertemplate'] = (
-        f'x %{{x:.3f}} m<br>t %{{y:.4g}}<br>%{{z:.3f}} {unit} from the mean<extra></extra>')
-    difference['colorbar'] = _bar(unit)
+    values = scale(streamline.on_even_grid(
+        x, streamline.gapless(part, getattr(part, quantity)), grid))
+    moment, label = units.since(shown.start)
+    time = moment(part.time)
+    itself = _heatmap(units.place(grid), time, values, quantity, scale)
+    change = units.pressure_change if quantity == 'pressure' else scale
+    difference = _heatmap(units.place(grid), time, values - values.mean(axis=0), 'velocity',
+                          change)
     itself['visible'], difference['visible'] = not waves, waves
-    traces, layout = [itself, difference], map_layout(field, time, 'time [ms]')
-    layout['updatemenus'] = [_choice([f'{name} itself', 'less its mean'], int(waves))]
+    difference['name'] = f'{quantity} less its mean'
+    traces = [itself, difference]
+    layout = map_layout(field, time, label, units)
+    layout['updatemenus'] = [_choice([f'{quantity} itself', 'less its mean'], int(waves))]
     if field.faces is not None:
         traces.append({
-            'type': 'scatter', 'mode': 'lines', 'name': 'piston', 'x': x[:, field.faces[0]],
-            'y': time, 'line': {'color': INK, 'width': 1.5, 'dash': 'dot'},
+            'type': 'scatter', 'mode': 'lines', 'name': 'piston',
+            'x': units.place(x[:, field.faces[0]]), 'y': time,
+            'line': {'color': INK, 'width': 1.5, 'dash': 'dot'},
             'hoverinfo': 'skip', 'showlegend': False,
         })
     return Figure(
-        f'map_{quantity}', f'{name.capitalize()}: x-t map',
+        f'map_{quantity}', f'{quantity.capitalize()}: x-t map',
         f'{span(shown)}, from {origin(part)}. Dotted: the piston.',
         traces, layout, height=520, wide=False,
     )
 
 
-def whole_run_map(field: Field, quantity: str, buckets: int = WHOLE_RUN_ROWS) -> Figure:
+def whole_run_map(field: Field, quantity: str, buckets: int = WHOLE_RUN_ROWS,
+                  units: Units = SI) -> Figure:
     """Return the map of the whole run: the highest or the lowest value of every bucket of time."""
-    name, _, scale = QUANTITIES[quantity]
+    scale: Scale = getattr(units, quantity)
     starts, lowest, highest = bucket_extremes(getattr(field, quantity), buckets)
     grid = np.linspace(field.positions.min(), field.positions.max(), COLUMNS)
     maps = [
-        streamline.extremes_on_even_grid(field, part, grid, highest=high) * scale
+        scale(streamline.extremes_on_even_grid(field, part, grid, highest=high))
         for part, high in ((highest, True), (lowest, False))
     ]
-    traces = [_heatmap(grid, field.time[starts], values, quantity) for values in maps]
+    time = units.time(field.time[starts])
+    traces = [_heatmap(units.place(grid), time, values, quantity, scale) for values in maps]
     for k, trace in enumerate(traces):
         trace.update(_shared_range(maps, quantity), visible=k == 0)
-    layout = map_layout(field, field.time[starts], 'time [s]')
+    layout = map_layout(field, time, units.time.label('time'), units)
     layout['updatemenus'] = [_choice(['highest in each row', 'lowest in each row'], 0)]
     seconds = (field.time[-1] - field.time[0]) / max(len(starts), 1)
     return Figure(
-        f'whole_{quantity}', f'{name.capitalize()} over the whole run',
+        f'whole_{quantity}', f'{quantity.capitalize()} over the whole run',
         f'Each row of the map holds {seconds * MILLI:.3g} ms of {field.source} and shows the '
         'extreme in it: no peak is averaged away.',
         traces, layout, height=400, wide=False,
@@ -147,15 +154,15 @@ def _surface_colours(quantity: str, values: np.ndarray) -> dict:
     }
 
 
-def _heatmap(grid: np.ndarray, time: np.ndarray, values: np.ndarray, quantity: str) -> dict:
-    """Return a heat map trace of (frames, columns) values."""
-    name, unit, _ = QUANTITIES[quantity]
+def _heatmap(grid: np.ndarray, time: np.ndarray, values: np.ndarray, quantity: str,
+             scale: Scale) -> dict:
+    """Return a heat map trace of (frames, columns) values, coloured as a quantity is."""
     return {
-        'type': 'heatmap', 'name': name, 'x': np.asarray(grid, np.float32), 'y': time,
+        'type': 'heatmap', 'name': quantity, 'x': np.asarray(grid, np.float32), 'y': time,
         'z': values, 'zsmooth': 'fast' if len(time) > MAP_FRAMES // 2 else 'best',
         'colorscale': PRESSURE_SCALE if quantity == 'pressure' else VELOCITY_SCALE,
-        'colorbar': _bar(unit), **_shared_range([values], quantity),
-        'hovertemplate': f'x %{{x:.3f}} m<br>t %{{y:.4g}}<br>%{{z:.3f}} {unit}<extra></extra>',
+        'colorbar': _bar(scale.unit or scale.symbol), **_shared_range([values], quantity),
+        'hovertemplate': f'x %{{x:.3f}}<br>t %{{y:.4g}}<br>%{{z:.3f}} {scale.unit}<extra></extra>',
     }
 
 
@@ -172,20 +179,21 @@ def _choice(labels: list[str], active: int) -> dict:
     }
 
 
-def x_axis(ends: list[tuple[float, str]]) -> dict:
-    """Return the x axis of a map: station letters and metres at the ends of the domains."""
+def x_axis(ends: list[tuple[float, str]], units: Units = SI) -> dict:
+    """Return the x axis of a map: station letters and places at the ends of the domains."""
+    places = [(float(units.place(x)), letters) for x, letters in ends]
     return {
-        'title': {'text': 'x: pump to tank [m]'},
-        'range': [ends[0][0], ends[-1][0]],
-        'tickvals': [x for x, _ in ends],
-        'ticktext': [f'{letters}<br>{x:.4g}' for x, letters in ends],
+        'title': {'text': units.place.label('x: pump to tank')},
+        'range': [places[0][0], places[-1][0]],
+        'tickvals': [x for x, _ in places],
+        'ticktext': [f'{letters}<br>{x:.3g}' for x, letters in places],
     }
 
 
-def map_layout(field: Field, time: np.ndarray, time_title: str) -> dict:
+def map_layout(field: Field, time: np.ndarray, time_title: str, units: Units = SI) -> dict:
     """Return the layout of a map."""
     return {
-        'xaxis': {**x_axis(streamline.boundaries(field)), 'showgrid': False},
+        'xaxis': {**x_axis(streamline.boundaries(field), units), 'showgrid': False},
         'yaxis': {'title': {'text': time_title}, 'range': [float(time[0]), float(time[-1])],
                   'showgrid': False},
     }

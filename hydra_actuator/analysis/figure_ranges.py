@@ -11,35 +11,37 @@ from hydra_actuator.analysis.figure import Figure, rows_layout
 from hydra_actuator.analysis.figure_fields import COLUMNS, origin, QUANTITIES, x_axis
 from hydra_actuator.analysis.palette import BLUE, ORANGE
 from hydra_actuator.analysis.series import Field
+from hydra_actuator.analysis.units import SI, Units
 import numpy as np
 
 STYLES = {'highest': {'color': ORANGE}, 'lowest': {'color': BLUE}}
 
 
-def ranges(field: Field, stations: Field | None) -> Figure:
+def ranges(field: Field, stations: Field | None, units: Units = SI) -> Figure:
     """Return the lowest and the highest pressure and velocity of the run along the streamline."""
     grid = np.linspace(field.positions.min(), field.positions.max(), 2 * COLUMNS)
     traces = []
-    for row, (quantity, (_, unit, scale)) in enumerate(QUANTITIES.items()):
+    for row, quantity in enumerate(QUANTITIES):
+        scale = getattr(units, quantity)
         panel = {'xaxis': 'x', 'yaxis': f'y{row + 1}' if row else 'y', 'showlegend': row == 0}
         for word, style in STYLES.items():
             common = {
                 'type': 'scatter', 'legendgroup': word, **panel,
-                'hovertemplate': f'x %{{x:.3f}} m: %{{y:.3f}} {unit}<extra>{word}</extra>',
+                'hovertemplate': f'x %{{x:.3f}}: %{{y:.3f}} {scale.unit}<extra>{word}</extra>',
             }
             traces.append({
                 **common, 'mode': 'lines', 'name': f'{word} of {field.source}', 'line': style,
-                'x': grid.astype(np.float32),
-                'y': np.asarray(_extreme(field, quantity, word, grid) * scale, np.float32),
+                'x': units.place(grid).astype(np.float32),
+                'y': np.asarray(scale(_extreme(field, quantity, word, grid)), np.float32),
             })
             if stations is not None:
                 x, y = _station_extremes(stations, quantity, word)
                 traces.append({
-                    **common, 'mode': 'markers', 'name': f'{word} of the stations', 'x': x,
-                    'y': y * np.float32(scale), 'marker': style, 'cliponaxis': False,
+                    **common, 'mode': 'markers', 'name': f'{word} of the stations',
+                    'x': units.place(x), 'y': scale(y), 'marker': style, 'cliponaxis': False,
                 })
-    layout = rows_layout(['pressure [MPa abs]', 'velocity [m/s]'])
-    layout['xaxis'].update(x_axis(streamline.boundaries(field)))
+    layout = rows_layout([getattr(units, quantity).label(quantity) for quantity in QUANTITIES])
+    layout['xaxis'].update(x_axis(streamline.boundaries(field), units))
     dots = '' if stations is None else f' Dots: {origin(stations)}, less the moving ones.'
     return Figure(
         'ranges', 'Range along the streamline',

@@ -7,6 +7,8 @@ one of the two grounds. The two ends of one domain share its colour, the second 
 Pressure: cividis (Nunez, Anderton and Renslow, 2018). Velocity has a sign: blue to orange.
 """
 
+import numpy as np
+
 BLUE, SKY, GREEN, ORANGE, VERMILION, PURPLE = (
     '#0072B2', '#56B4E9', '#009E73', '#E69F00', '#D55E00', '#CC79A7',
 )
@@ -34,3 +36,11 @@ def line_style(name: str, index: int) -> dict:
         'color': LINES[index % len(LINES)],
         'dash': dashes[(index // len(LINES)) % len(dashes)],
     }
+
+
+def sequence(count: int) -> list[str]:
+    """Return colours of instants one after the other, early to late, told apart by lightness."""
+    stops = np.array([[0x08, 0x36, 0x6e], [0x00, 0x9e, 0x73], [0xe6, 0x9f, 0x00]], float)
+    places = np.linspace(0.0, len(stops) - 1.0, max(count, 2))[:count]
+    parts = np.stack([np.interp(places, range(len(stops)), stop) for stop in stops.T], axis=1)
+    return ['#' + ''.join(f'{round(part):02x}' for part in colour) for colour in parts]

@@ -12,16 +12,21 @@ from hydra_actuator.analysis import (
     boiling,
     facts,
     figure_cavities,
+    figure_events,
     figure_fields,
     figure_lines,
+    figure_net,
+    figure_profiles,
     figure_ranges,
+    figure_spectrum,
     figure_timing,
     streamline,
 )
 from hydra_actuator.analysis.figure import Figure
 from hydra_actuator.analysis.page import GENERATOR, page
-from hydra_actuator.analysis.series import Series
+from hydra_actuator.analysis.series import Field, Series
 from hydra_actuator.analysis.window import (
+    active_span,
     best_field,
     wave_window,
     whole_run_buckets,
@@ -78,11 +83,15 @@ def report_page(series: Series) -> str:
 def figures(series: Series) -> list[Figure]:
     """Return all figures in the order of the page."""
     shown = window_of(series)
+    whole = Window(float(series.time[0]), float(series.time[-1]))
     return [
         *field_figures(series, shown),
         figure_lines.sections(series, shown),
         figure_lines.piston(series, shown),
+        figure_lines.command(series, shown),
+        figure_spectrum.spectrum(series, Window(*active_span(series))),
         *figure_cavities.cavities(series, shown),
+        figure_events.events(series, whole),
         *timing_figures(series),
     ]
 
@@ -106,16 +115,24 @@ def field_figures(series: Series, shown: Window) -> list[Figure]:
     mapped, window = (full, in_waves) if in_waves else (drawn, shown)
     # A periodic run is told by its periods; another one by the waves, where they are resolved.
     over = shown if shown.frequency else window
-    quantities = tuple(figure_fields.QUANTITIES)
+    quantities = figure_fields.QUANTITIES
     result = [figure_fields.surface(series, drawn, over, q) for q in quantities]
     result += [figure_fields.wave_map(series, mapped, window, q, bool(in_waves))
                for q in quantities]
+    result.append(figure_profiles.over_time(series, drawn, over))
+    result.append(_net(series, drawn, shown))
     if full is None:
         result.append(Figure.absent('whole', 'The whole run', 'the field was not recorded'))
         return result
     buckets = whole_run_buckets(full, shown, figure_fields.WHOLE_RUN_ROWS)
     result += [figure_fields.whole_run_map(full, q, buckets) for q in quantities]
     return [*result, figure_ranges.ranges(full, stations)]
+
+
+def _net(series: Series, field: Field, shown: Window) -> Figure:
+    """Return the characteristic net of a few travels, where the recording has parameters."""
+    window = figure_net.net_window(series, field, shown) if series.parameters else shown
+    return figure_net.net(series, field, window)
 
 
 def _subtitle(series: Series) -> str:

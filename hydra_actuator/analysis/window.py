@@ -45,11 +45,14 @@ def dominant_frequency(time: np.ndarray, values: np.ndarray) -> float:
     # A few hundred thousand samples are plenty and keep the transform short.
     values = values[-2**18:] - np.mean(values[-2**18:])
     power = np.abs(np.fft.rfft(values * np.hanning(len(values)))) ** 2
+    drift = power[FEWEST_PERIODS - 1]
     power[:FEWEST_PERIODS] = 0.0
     peak = int(power.argmax())
     share = power[max(peak - 2, 0):peak + 3].sum() / max(power.sum(), 1e-300)
     if peak < FEWEST_PERIODS or peak + 1 >= len(power) or share < PURE:
         return 0.0
+    if peak == FEWEST_PERIODS and drift > power[peak]:
+        return 0.0              # the tail of something slower
     low, mid, high = np.sqrt(power[peak - 1:peak + 2])
     ratio = max(low, high) / mid
     # The two greatest bins of a Hann window give the place of a lone line exactly.

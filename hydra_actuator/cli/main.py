@@ -22,6 +22,7 @@ VERBS = {
     'demo': 'the node in real time, driven over DDS, recorded and reported',
     'simulate': 'an offline run, as fast as possible, into a recording',
     'report': 'one self-contained page about a recording',
+    'plot': 'one figure of a recording as PNG, SVG or PDF',
     'info': 'what a recording holds',
     'export': 'a recording as CSV, Parquet or NetCDF, with units',
     'recover': 'salvage of an unfinished or damaged recording',

@@ -12,6 +12,7 @@ through the run's velocities, linear between nodes and frames; neglected: nothin
 from itertools import pairwise
 
 from hydra_actuator.analysis import streamline
+from hydra_actuator.analysis.characteristics import family, Net
 from hydra_actuator.analysis.palette import BLUE, INK, ORANGE, VERMILION
 from hydra_actuator.analysis.series import Field
 from hydra_actuator.geometry import wave_speed
@@ -24,7 +25,6 @@ import numpy as np
 WINDOW = (50.570, 50.577)
 NET_START, NET_UNITS, ALL_UNITS = 10.0, 0.25, 0.8      # [L/c]
 NET_SPACING, ALL_SPACING = 0.01, 0.02      # of the net's lines [L]
-SUBSTEPS = 32               # of the integration, from frame to frame
 
 
 def figure_3d(figure, case: Case) -> str:
@@ -79,63 +79,19 @@ def _frame_at(field: Field, time: float) -> Field:
                  field.velocity[k:k + 1], field.faces, field.source)
 
 
-class Net:
-    """The characteristics of one domain, both families, reflected at its ends."""
-
-    def __init__(self, run: Run, domain: str, span: tuple[int, int]) -> None:
-        """Take the domain's nodes between two frames of the dense beginning of a run."""
-        field, part = run.first, slice(span[0], span[1] + 1)
-        inside = np.flatnonzero(np.array(field.labels) == domain)
-        frames = field.time[part]
-        self.time = np.linspace(frames[0], frames[-1], SUBSTEPS * (len(frames) - 1) + 1)
-        self._x, self._u = (
-            np.stack([np.interp(self.time, frames, node) for node in values[part, inside].T], 1)
-            for values in (run.positions_of(field), streamline.gapless(field, field.velocity)))
-        self._speed = wave_speed(run.parameters, domain)
-
-    def lines(self, spacing: float) -> tuple[np.ndarray, np.ndarray]:
-        """
-        Return x [m] (instants, lines), and the direction of travel, +1 or -1.
-
-        At the first instant lines of both families start a spacing [m] apart.
-        """
-        low, high = self._x[0, 0], self._x[0, -1]
-        count = max(1, round((high - low) / spacing))
-        start = low + (np.arange(count) + 0.5) * (high - low) / count
-        x, way = np.concatenate((start, start)), np.repeat((1.0, -1.0), count)
-        places, ways = [x], [way]
-        for k in range(len(self.time) - 1):
-            x, way = self._step(k, x, way)
-            places.append(x)
-            ways.append(way)
-        return np.array(places), np.array(ways)
-
-    def _step(self, k: int, x: np.ndarray, way: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return places and directions an instant later, by the mean of both slopes."""
-        dt = self.time[k + 1] - self.time[k]
-        here = np.interp(x, self._x[k], self._u[k])
-        there = np.interp(x + (here + way * self._speed) * dt, self._x[k + 1], self._u[k + 1])
-        after = x + (0.5 * (here + there) + way * self._speed) * dt
-        low, high = self._x[k + 1, 0], self._x[k + 1, -1]
-        beyond = (after < low) | (after > high)
-        after = np.where(after < low, 2.0 * low - after, after)
-        after = np.where(after > high, 2.0 * high - after, after)
-        return after, np.where(beyond, -way, way)
-
-
-def family(x: np.ndarray, way: np.ndarray, sign: float) -> np.ndarray:
-    """Return the parts of (instants, lines) that travel one way, up to where they turn."""
-    mine = way == sign
-    # The turn itself lies between two instants: both families reach into it.
-    mine[1:] |= way[:-1] == sign
-    mine[:-1] |= way[1:] == sign
-    return np.where(mine, x, np.nan)
+def net_of(run: Run, domain: str, span: tuple[int, int]) -> Net:
+    """Return the net of a domain between two frames of the dense beginning of a run."""
+    field, part = run.first, slice(span[0], span[1] + 1)
+    inside = np.flatnonzero(np.array(field.labels) == domain)
+    velocity = streamline.gapless(field, field.velocity)
+    return Net(field.time[part], run.positions_of(field)[part, inside], velocity[part, inside],
+               wave_speed(run.parameters, domain))
 
 
 def draw_net(axes, run: Run, domains: tuple, span: tuple[int, int], spacing: float) -> None:
     """Draw the nets of some domains between two frames of the beginning, and the piston."""
     for domain in domains:
-        net = Net(run, domain, span)
+        net = net_of(run, domain, span)
         x, way = net.lines(spacing * run.length_unit)
         for sign, colour in ((1.0, BLUE), (-1.0, ORANGE)):
             axes.plot(family(x, way, sign) / run.length_unit, net.time / run.time_unit,

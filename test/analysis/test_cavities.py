@@ -54,7 +54,7 @@ def test_figures_of_cavities_are_valid_for_plotly_and_in_order(torn):
 
 
 def test_volumes_are_in_millilitres_by_the_domains_that_boiled(torn):
-    figure = figure_cavities.over_time(torn, window_of(torn))
+    figure = figure_cavities.volumes(torn, window_of(torn))
     lines = {trace['name']: trace for trace in figure.traces}
     assert list(lines) == ['return_line', 'open']
     assert lines['return_line']['y'].max() == pytest.approx(3.0, rel=1e-6)
@@ -65,7 +65,7 @@ def test_with_several_domains_their_sum_is_a_line_of_its_own(torn):
     of_domain = torn.cavities.of_domain.copy()
     of_domain[:, LINE_2] = 1e-6
     both = replace(torn.cavities, of_domain=of_domain, volume=of_domain.sum(axis=1))
-    lines = {t['name']: t for t in figure_cavities.over_time(
+    lines = {t['name']: t for t in figure_cavities.volumes(
         replace(torn, cavities=both), window_of(torn)).traces}
     assert set(lines) == {'line_2', 'return_line', 'all', 'open'}
     assert lines['all']['y'].max() == pytest.approx(4.0, rel=1e-6)

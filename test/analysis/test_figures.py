@@ -10,8 +10,9 @@ import plotly.graph_objects as go
 import pytest
 
 KEYS = [
-    'surface_pressure', 'surface_velocity', 'map_pressure', 'map_velocity', 'whole_pressure',
-    'whole_velocity', 'ranges', 'sections', 'piston', 'real_time', 'sending', 'stamps',
+    'surface_pressure', 'surface_velocity', 'map_pressure', 'map_velocity', 'streamline',
+    'net', 'whole_pressure', 'whole_velocity', 'ranges', 'sections', 'piston', 'command',
+    'spectrum', 'faults', 'real_time', 'sending', 'stamps',
 ]
 
 
@@ -51,9 +52,15 @@ def test_a_long_run_is_decimated_and_keeps_its_extremes(make_run):
     assert line['y'].max() == pytest.approx(40)
 
 
-def test_the_piston_figure_shows_millimetres_and_the_spool_beside_the_command(run):
+def test_the_piston_figure_shows_millimetres_and_the_pressures_on_its_faces(run):
     lines = {t['name']: t for t in figure_lines.piston(run, window_of(run)).traces}
     assert lines['position']['y'].max() == pytest.approx(12, rel=1e-4)
+    assert lines['face E']['y'].max() == pytest.approx(16, rel=1e-4)
+    assert lines['face F']['yaxis'] == lines['face E']['yaxis'] != lines['position']['yaxis']
+
+
+def test_the_spool_stands_beside_the_command(run):
+    lines = {t['name']: t for t in figure_lines.command(run, window_of(run)).traces}
     assert lines['spool']['y'].max() == pytest.approx(1, rel=1e-4)
     assert lines['command']['yaxis'] == lines['spool']['yaxis']
     assert 'load' not in lines
@@ -61,7 +68,7 @@ def test_the_piston_figure_shows_millimetres_and_the_spool_beside_the_command(ru
 
 def test_a_load_has_its_own_panel(run):
     loaded = replace(run, load_force=np.full(len(run.time), 1500.0))
-    lines = {t['name']: t for t in figure_lines.piston(loaded, window_of(run)).traces}
+    lines = {t['name']: t for t in figure_lines.command(loaded, window_of(run)).traces}
     assert lines['load']['y'][0] == pytest.approx(1.5)
 
 
@@ -107,7 +114,7 @@ def test_what_was_not_recorded_is_said(run):
     poor = replace(run, field=None, diagnostics=(), send_delay=np.empty(0),
                    section_positions=np.empty(0))
     missing = [figure.key for figure in report.figures(poor) if figure.missing]
-    assert missing == ['field', 'real_time', 'sending']
+    assert missing == ['field', 'faults', 'real_time', 'sending']
 
 
 def test_without_the_field_the_stations_give_the_surface(run):

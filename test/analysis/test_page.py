@@ -116,7 +116,7 @@ def test_names_from_a_recording_cannot_become_markup(run):
 
 def test_a_missing_figure_is_a_sentence(run):
     elements = Elements(report.report_page(replace(run, field=None, diagnostics=())))
-    assert elements.missing == ['whole', 'real_time']
+    assert elements.missing == ['whole', 'faults', 'real_time']
 
 
 def test_the_page_of_ten_seconds_is_below_ten_megabytes(make_run):

@@ -72,3 +72,8 @@ def test_frames_too_far_apart_give_way_to_the_stations(make_run, field_rate, fro
     run = make_run(0.5, field_rate)
     stations = streamline.field_of_stations(run)
     assert (best_field(run.field, stations, window_of(run)) is run.field) == from_field
+
+
+def test_a_ramp_has_no_frequency():
+    time = np.arange(600) / 20_000
+    assert dominant_frequency(time, 0.03 * (time / 0.03) ** 1.2) == 0.0

@@ -146,7 +146,7 @@ def test_command_is_the_sine_asked_for(case, drawn):
 
 def test_net_lines_travel_at_c_plus_or_minus_u(case):
     run = case.run()
-    net = figures_net.Net(run, 'supply_line', (0, 40))
+    net = figures_net.net_of(run, 'supply_line', (0, 40))
     x, way = net.lines(0.1)
     straight = way[1:] == way[:-1]
     speed = np.abs(np.diff(x, axis=0) / np.diff(net.time)[:, None])[straight]
