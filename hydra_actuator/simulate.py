@@ -25,6 +25,7 @@ from hydra_actuator.faults.announcements import Announcement, Announcer, NAME
 from hydra_actuator.instruments import Instruments
 from hydra_actuator.interruption import Interruption
 from hydra_actuator.parameters import Parameters
+from hydra_actuator.recording.limits import Limits
 from hydra_actuator.recording.messages import diagnostic_array, float64, float64_multi_array
 from hydra_actuator.recording.reader import load_recording
 from hydra_actuator.recording.run_data import run_data
@@ -224,7 +225,8 @@ class _Recording:
         about = run_data('simulate', p.as_yaml(), actuator.section_positions,
                          actuator.field_positions, actuator.field_labels)
         self._writer = RecordingWriter(output, topics.all(), about, p['recording.flush_period'],
-                                       compression=p['recording.compression'])
+                                       compression=p['recording.compression'],
+                                       limits=Limits.of(p))
         self.close = self._writer.close
 
     def take(self, due: _Due, reading: list[float], command: list[float]) -> None:

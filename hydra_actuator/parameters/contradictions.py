@@ -21,12 +21,14 @@ _LONGEST_TOKEN = 100
 _ROUGHEST = 0.05
 # Of the bulk modulus: a pressure beyond has no meaning with a modulus that does not depend on it.
 _MOST_COMPRESSION = 0.5
+# Each file of a recording begins with some 20 kB of definitions.
+_SMALLEST_FILE, _SHORTEST_FILE = 100_000, 0.1
 
 
 def refuse_contradictions(values: Mapping[str, Value]) -> None:
     """Raise ParameterError on the first contradiction between complete, singly valid values."""
     for check in (_fluid, _supply, _lines, _valve, _cylinder, _initial, _compression, mesh,
-                  friction, _sections, _joints, _timing, _faults):
+                  friction, _sections, _joints, _timing, _recording, _faults):
         for contradiction in check(values):
             raise ParameterError(contradiction)
 
@@ -167,3 +169,12 @@ def _timing(values: Mapping[str, Value]) -> Iterator[str]:
                 values, 'timing.lockstep_period', 'must be a whole multiple of', 'timing.period')
     if mode == 'follow_clock' and values['publish.clock']:
         yield 'publish.clock = true must be false with timing.mode = follow_clock: one gives time'
+
+
+def _recording(values: Mapping[str, Value]) -> Iterator[str]:
+    for name, least, unit in (
+        ('recording.split_size', _SMALLEST_FILE, 'B'),
+        ('recording.split_duration', _SHORTEST_FILE, 's'),
+    ):
+        if 0 < values[name] < least:
+            yield f'{name} = {values[name]} must be 0 or at least {least} {unit}'

@@ -12,9 +12,6 @@ from hydra_actuator.parameters.definition import ParameterError, Value
 # What is available of each parameter that is restricted.
 AVAILABLE: dict[str, tuple[Value, ...]] = {
     'recording.mode': ('continuous',),
-    'recording.split_size': (0,),
-    'recording.split_duration': (0.0,),
-    'recording.min_free_space': (0,),
 }
 
 

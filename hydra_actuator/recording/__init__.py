@@ -13,7 +13,9 @@ Nothing in here imports rclpy; it knows the channels of the actuator, not its ph
     opening      what stands in a file before its first chunk
     segment      one MCAP file being written
     metadata     the text of metadata.yaml
-    writer       a recording: directory, metadata, segments
+    limits       when a file is full, and when the disk is
+    files        the files of a recording and the list of them
+    writer       a recording being written
     queue        a writer behind a thread and a bounded queue
     scan         one MCAP file being read, finished or not
     series       the messages of one topic as arrays

@@ -9,6 +9,7 @@ double-quoted on one line, so that yaml-cpp and PyYAML read any text back unchan
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 import json
 from pathlib import Path
 import re
@@ -40,16 +41,6 @@ class FileInformation:
     end_ns: int | None
     message_count: int
 
-    def yaml(self) -> str:
-        """Return its entry in the list of files."""
-        start, duration = _span([self])
-        return (
-            f'- path: {quoted(self.path)}\n'
-            f'  starting_time:\n    nanoseconds_since_epoch: {start}\n'
-            f'  duration:\n    nanoseconds: {duration}\n'
-            f'  message_count: {self.message_count}\n'
-        )
-
 
 class BagMetadata:
     """The metadata of one recording, made again from counts whenever asked."""
@@ -63,7 +54,7 @@ class BagMetadata:
     def information(self, files: Sequence[FileInformation], counts: Mapping[str, int]) -> str:
         """Return the YAML mapping; `counts` is messages by topic."""
         start, duration = _span(files)
-        topics = ''.join(f'{text}    message_count: {counts[name]}\n'
+        topics = ''.join(f'{text}    message_count: {counts.get(name, 0)}\n'
                          for name, text in self._topics)
         paths = ''.join(f'  - {quoted(file.path)}\n' for file in files)
         custom = f'custom_data:\n{self._custom_data}' if self._custom_data else 'custom_data: ~\n'
@@ -77,14 +68,14 @@ class BagMetadata:
             'compression_format: ""\n'
             'compression_mode: ""\n'
             f'relative_file_paths:\n{paths}'
-            f'files:\n{indent("".join(file.yaml() for file in files), "  ")}'
+            f'files:\n{_indented("".join([_file_yaml(file) for file in files]))}'
             f'{custom}'
             f'ros_distro: {ROS_DISTRO}\n'
         )
 
     def text(self, files: Sequence[FileInformation], counts: Mapping[str, int]) -> str:
         """Return the whole of metadata.yaml."""
-        return f'{ROOT}:\n{indent(self.information(files, counts), "  ")}'
+        return f'{ROOT}:\n{_indented(self.information(files, counts))}'
 
 
 def quoted(text: str) -> str:
@@ -121,6 +112,23 @@ def _span(files: Sequence[FileInformation]) -> tuple[int, int]:
     starts = [file.start_ns for file in files if file.start_ns is not None]
     ends = [file.end_ns for file in files if file.end_ns is not None]
     return (min(starts), max(ends) - min(starts)) if starts else (NO_START, 0)
+
+
+@lru_cache(4096)
+def _file_yaml(file: FileInformation) -> str:
+    """Return a file's entry in the list of files."""
+    start, duration = _span([file])
+    return (
+        f'- path: {quoted(file.path)}\n'
+        f'  starting_time:\n    nanoseconds_since_epoch: {start}\n'
+        f'  duration:\n    nanoseconds: {duration}\n'
+        f'  message_count: {file.message_count}\n'
+    )
+
+
+def _indented(text: str) -> str:
+    """Return whole lines, none of them empty, two further in: there may be thousands."""
+    return f'  {text}'.replace('\n', '\n  ').removesuffix('  ')
 
 
 def _topic_yaml(topic: Topic) -> str:

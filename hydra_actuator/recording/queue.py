@@ -4,38 +4,58 @@ A writer behind one thread and a bounded queue, for producers that must not wait
 
 Putting a message costs a list append under a lock that is never held while anything is written.
 When the disk is slower than the messages for so long that the queue is full, whole messages are
-dropped and counted by topic. A writing error ends the writing, is kept in `error`, and disturbs
-no producer: what comes after it counts as dropped.
+dropped and counted by topic. A writing error disturbs no producer: it is kept in `error`, and what
+comes counts as dropped, until the sink can go on after a RecordingFailure.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 import threading
+import time
 from typing import Protocol
 
+from hydra_actuator.recording.errors import RecordingFailure
 from hydra_actuator.recording.segment import Message
 
 # Every message counts for this much more than its bytes: tuple, list entry, integers.
 _OVERHEAD = 150
+# How often a sink that has failed is asked to go on [s].
+_RETRY = 0.25
+
+
+class SinkStatistics(Protocol):
+    """What a sink has kept, by topic: after a failure that is less than it was given."""
+
+    @property
+    def messages(self) -> Mapping[str, int]: ...
 
 
 class Sink(Protocol):
     """What stands behind the queue, such as a RecordingWriter; used by one thread only."""
 
+    @property
+    def statistics(self) -> 'SinkStatistics': ...
     def write_batch(self, messages: Iterable[Message]) -> None: ...
     def flush_if_due(self) -> None: ...
+    def resume(self) -> None: ...
     def close(self) -> None: ...
 
 
 @dataclass(frozen=True)
 class QueueStatistics:
-    """Messages taken, written and dropped by topic, and the bytes waiting, now and at most."""
+    """
+    Messages written and dropped by topic, and the bytes waiting, now and at most.
+
+    failures: how often writing broke off; resumed: how often it went on.
+    """
 
     written: Mapping[str, int]
     dropped: Mapping[str, int]
     waiting_bytes: int
     most_waiting_bytes: int
+    failures: int = 0
+    resumed: int = 0
 
 
 class QueuedWriter:
@@ -44,6 +64,7 @@ class QueuedWriter:
     def __init__(self, sink: Sink, capacity: int = 64 * 1024 * 1024, poll_period: float = 0.01):
         """Take over a sink, closed with the queue; `capacity` [byte], `poll_period` [s]."""
         self.error: Exception | None = None
+        self.on_resume: Callable[[], None] = lambda: None
         self._sink = sink
         self._capacity = capacity
         self._poll_period = poll_period
@@ -54,6 +75,10 @@ class QueuedWriter:
         self._most_bytes = 0
         self._dropped: Counter[str] = Counter()
         self._written: Counter[str] = Counter()
+        self._handed: Counter[str] = Counter()
+        self._lost: Counter[str] = Counter()
+        self._failures = self._resumed = 0
+        self._retry = 0.0
         self._wake = threading.Event()
         self._closing = False
         self._thread = threading.Thread(target=self._run, name='recorder', daemon=True)
@@ -70,8 +95,9 @@ class QueuedWriter:
         """The counts so far."""
         with self._lock:
             return QueueStatistics(
-                dict(self._written), dict(self._dropped),
+                dict(self._written), dict(self._dropped + self._lost),
                 self._waiting_bytes + self._in_hand_bytes, self._most_bytes,
+                self._failures, self._resumed,
             )
 
     def put(self, topic: str, log_ns: int, publish_ns: int, data: bytes) -> bool:
@@ -122,29 +148,65 @@ class QueuedWriter:
         try:
             while not self._closing:
                 self._wake.wait(self._poll_period)
+                if self.error is not None:
+                    self._go_on_if_possible()
                 self._write_waiting()
             self._write_waiting()
         finally:
-            self._attempt(self._sink.close)
+            if not self._attempt(self._sink.close):
+                self._recount()
 
     def _write_waiting(self) -> None:
         """Hand everything that waits to the sink."""
         with self._lock:
             batch, self._waiting = self._waiting, []
             self._in_hand_bytes, self._waiting_bytes = self._waiting_bytes, 0
-        done = self.error is None and self._attempt(self._sink.write_batch, batch)
+        before = self.error
+        done = before is None and self._attempt(self._sink.write_batch, batch)
         if done:
             done = self._attempt(self._sink.flush_if_due)
         count = Counter([message[0] for message in batch])
         with self._lock:
             self._in_hand_bytes = 0
-            (self._written if done else self._dropped).update(count)
+            self._handed.update(count)
+            if done:
+                self._written.update(count)
+            elif before is not None:
+                self._lost.update(count)
+        if not done and before is None:
+            self._recount()
+
+    def _go_on_if_possible(self) -> None:
+        """Have a sink that has failed try again, now and then."""
+        if not isinstance(self.error, RecordingFailure) or time.monotonic() < self._retry:
+            return
+        self._retry = time.monotonic() + _RETRY
+        try:
+            self._sink.resume()
+        except RecordingFailure:
+            return
+        except Exception as error:
+            self.error = error
+            return
+        self._resumed += 1
+        self.error = None
+        self.on_resume()
+
+    def _recount(self) -> None:
+        """After a failure: what the sink was given and has not kept is lost."""
+        kept = Counter(self._sink.statistics.messages)
+        with self._lock:
+            self._written = +kept
+            self._lost = self._handed - kept
 
     def _attempt(self, action, *arguments) -> bool:
         """Do something with the sink; the first error is kept, for this thread has no caller."""
         try:
             action(*arguments)
         except Exception as error:
-            self.error = self.error or error
+            if self.error is None:
+                self.error = error
+                self._failures += 1
+                self._retry = time.monotonic() + _RETRY
             return False
         return True

@@ -74,6 +74,7 @@ class Segment:
         """Create the file (FileExistsError if it is there) with schemas and channels in it."""
         self.path = path
         self.size = 0
+        self.first_ns: int | None = None
         self.start_ns: int | None = None
         self.end_ns: int | None = None
         self._chunk_size = chunk_size
@@ -89,10 +90,19 @@ class Segment:
         self._parts: list[bytes] = []
         self._filled = 0
         self._file = open(path, 'xb', buffering=0)
-        definitions = encoded(self._definitions)
-        self._put(MAGIC + encoded([HEADER]) + definitions)
-        custom = self.add_metadata(CUSTOM_DATA, custom_data)
-        self.add_metadata(CHECKSUMS, checksums(definitions, custom))
+        try:
+            definitions = encoded(self._definitions)
+            self._put(MAGIC + encoded([HEADER]) + definitions)
+            custom = self.add_metadata(CUSTOM_DATA, custom_data)
+            self.add_metadata(CHECKSUMS, checksums(definitions, custom))
+        except BaseException:
+            self.discard()
+            raise
+
+    @property
+    def open_size(self) -> int:
+        """Bytes of the open chunk, before compression."""
+        return self._filled
 
     @property
     def counts(self) -> dict[str, int]:
@@ -110,6 +120,8 @@ class Segment:
         channels, parts, pack = self._channels, self._parts, _MESSAGE_HEAD.pack
         for topic, log_ns, publish_ns, data in messages:
             channel = channels[topic]
+            if self.first_ns is None:
+                self.first_ns = log_ns
             size = len(data)
             parts.append(pack(_MESSAGE, _HEAD_REST + size, channel.id, channel.count, log_ns,
                               publish_ns))
@@ -134,14 +146,15 @@ class Segment:
                            zlib.crc32(content), len(name), name, len(data))
         chunk = b''.join((struct.pack('<BQ', Opcode.CHUNK, len(head) + len(data)), head, data))
         behind, offsets = _message_indexes(indexes, self.size + len(chunk))
-        self._chunks += 1
-        self._chunk_indexes += encoded([ChunkIndex(
+        chunk_index = encoded([ChunkIndex(
             message_start_time=start, message_end_time=end, chunk_start_offset=self.size,
             chunk_length=len(chunk), message_index_offsets=offsets,
             message_index_length=len(behind), compression=self._compression,
             compressed_size=len(data), uncompressed_size=len(content),
         )])
         self._put(chunk + behind)
+        self._chunks += 1
+        self._chunk_indexes += chunk_index
         self._empty_chunk()
         self.start_ns = start if self.start_ns is None else min(start, self.start_ns)
         self.end_ns = end if self.end_ns is None else max(end, self.end_ns)
@@ -155,16 +168,38 @@ class Segment:
 
     def close(self) -> None:
         """Write the open chunk and the summary, and close the file."""
-        try:
-            self.end_chunk()
-            self._put(encoded([DataEnd(0)]))
-            self._put(self._summary() + MAGIC)
-        finally:
-            self._file.close()
+        self.end_chunk()
+        end = encoded([DataEnd(0)])
+        self._put(end + self._summary(self.size + len(end)) + MAGIC)
+        self._file.close()
 
     def abandon(self) -> None:
-        """Close the file as it is, without a summary."""
-        self._file.close()
+        """Close the file as it is, without a summary; never raises."""
+        try:
+            self._file.close()
+        except OSError:
+            return
+
+    def cut_back(self) -> None:
+        """Give up the open chunk and what is behind the last whole record; never raises."""
+        for channel in self._channels.values():
+            channel.count -= len(channel.index) // 2
+        self._empty_chunk()
+        self._metadata_indexes = [
+            index for index in self._metadata_indexes if index.offset < self.size]
+        try:
+            self._file.truncate(self.size)
+            self._file.seek(self.size)
+        except (OSError, ValueError):
+            return
+
+    def discard(self) -> None:
+        """Close and remove the file; never raises."""
+        try:
+            self._file.close()
+            self.path.unlink()
+        except OSError:
+            return
 
     def _empty_chunk(self) -> None:
         self._parts.clear()
@@ -178,8 +213,8 @@ class Segment:
             rest = rest[self._file.write(rest):]
         self.size += len(data)
 
-    def _summary(self) -> bytes:
-        """Return the summary section with the footer."""
+    def _summary(self, start: int) -> bytes:
+        """Return the summary section with the footer, put at a file offset."""
         counts = {channel.id: channel.count for channel in self._channels.values()}
         schemas = [record for record in self._definitions if isinstance(record, Schema)]
         channels = [record for record in self._definitions if isinstance(record, Channel)]
@@ -196,9 +231,9 @@ class Segment:
             (encoded(self._metadata_indexes), Opcode.METADATA_INDEX),
         ):
             if text:
-                offsets.append(SummaryOffset(opcode, self.size + len(content), len(text)))
+                offsets.append(SummaryOffset(opcode, start + len(content), len(text)))
             content += text
-        start, offsets_start = self.size, self.size + len(content)
+        offsets_start = start + len(content)
         content += encoded(offsets)
         crc = zlib.crc32(content + struct.pack('<BQQQ', Opcode.FOOTER, 20, start, offsets_start))
         return content + encoded([Footer(start, offsets_start, crc)])

@@ -6,7 +6,7 @@ Messages are handed to a queue with a thread of its own behind it; what comes wh
 recorded is let go.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import os
 from pathlib import Path
 import shutil
@@ -14,6 +14,7 @@ import time
 
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.recording.errors import RecordingError
+from hydra_actuator.recording.limits import Limits
 from hydra_actuator.recording.queue import QueuedWriter, QueueStatistics
 from hydra_actuator.recording.segment import Message
 from hydra_actuator.recording.topics import Topic
@@ -30,8 +31,13 @@ class Recorder:
         self, node: str, parameters: Parameters, topics: Sequence[Topic],
         custom_data: Mapping[str, str],
     ):
-        """Take the fully qualified name of the node, and what its recordings carry."""
+        """
+        Take the fully qualified name of the node, and what its recordings carry.
+
+        on_resume: told, in the recorder's thread, when writing goes on after a failure.
+        """
         self.path: Path | None = None
+        self.on_resume: Callable[[], None] = lambda: None
         self._node = node.strip('/').replace('/', '_')
         self._parameters = parameters
         self._topics = topics
@@ -56,6 +62,18 @@ class Recorder:
         return None if writer is None else writer.statistics
 
     @property
+    def failures(self) -> int:
+        """How often writing to the open recording broke off."""
+        statistics = self.statistics
+        return 0 if statistics is None else statistics.failures
+
+    @property
+    def resumed(self) -> int:
+        """How often writing to the open recording went on after a failure."""
+        statistics = self.statistics
+        return 0 if statistics is None else statistics.resumed
+
+    @property
     def size(self) -> int:
         """Bytes in the files of the last recording."""
         try:
@@ -78,6 +96,7 @@ class Recorder:
         writer = self._new_writer(directory, name)
         self.path = writer.directory
         self._writer = QueuedWriter(writer)
+        self._writer.on_resume = lambda: self.on_resume()
         return self.path
 
     def close(self) -> bool:
@@ -116,6 +135,7 @@ class Recorder:
                     path, self._topics, self._custom_data,
                     flush_period=parameters['recording.flush_period'],
                     compression=parameters['recording.compression'],
+                    limits=Limits.of(parameters),
                 )
             except RecordingError:
                 if not path.is_dir():

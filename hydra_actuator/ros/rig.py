@@ -227,6 +227,8 @@ class Rig:
         self.outputs.on_error = lambda error: self._fail(f'publishing: {error!r}')
         self.outputs.on_restart = self._record_anew
         self.outputs.on_faults = self._announce
+        # What holds stands in the new file as well.
+        self.recorder.on_resume = self.outputs.forget_inputs
         self.plant.on_faults = self._set_instruments
         self.outputs.after_batch = Watch(self._reports.event, self._vitals.watched()).look
 

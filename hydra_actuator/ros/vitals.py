@@ -87,5 +87,7 @@ class Vitals:
                     lambda: actuator.cavities.collapsed),
             Watched('Solver', warn, statuses.VACUUM, lambda: actuator.vacuum_ticks),
             Watched('Recorder', statuses.ERROR, 'recording broke off',
-                    lambda: int(bool(self._recorder.error))),
+                    lambda: self._recorder.failures),
+            Watched('Recorder', statuses.OK, 'recording goes on in a new file',
+                    lambda: self._recorder.resumed),
         ]

@@ -4,6 +4,7 @@
 from collections import Counter
 import threading
 import time
+from types import SimpleNamespace
 
 from hydra_actuator.recording import messages
 from hydra_actuator.recording.queue import QueuedWriter
@@ -16,6 +17,10 @@ TOPICS = ['/a', '/b']
 
 class GatedSink:
     """A sink that writes nothing until its gate opens."""
+
+    @property
+    def statistics(self):
+        return SimpleNamespace(messages=Counter(message[0] for message in self.messages))
 
     def __init__(self):
         self.gate = threading.Event()
@@ -30,6 +35,9 @@ class GatedSink:
         self.messages += batch
 
     def flush_if_due(self):
+        pass
+
+    def resume(self):
         pass
 
     def close(self):

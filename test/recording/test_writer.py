@@ -234,7 +234,7 @@ def test_a_strange_topic_and_a_negative_time_are_refused_and_cost_nothing_else(t
 
 def test_a_full_disk_is_named(tmp_path):
     writer = RecordingWriter(tmp_path / 'run', [COMMAND], flush_period=0.0)
-    segment = writer._segment
+    segment = writer._files.open
     segment._file.close()
     segment._file = open('/dev/full', 'wb', buffering=0)
     with pytest.raises(RecordingFailure, match='No space left'):
