@@ -35,13 +35,15 @@ setup(
     ],
     extras_require={
         'test': [
-            'control', 'hypothesis', 'matplotlib', 'mcap-ros2-support', 'netCDF4', 'pandas',
-            'plotly', 'pyarrow', 'pytest', 'rosbags', 'ruff', 'scipy', 'xarray',
+            'control', 'hypothesis', 'imageio-ffmpeg', 'matplotlib', 'mcap-ros2-support',
+            'netCDF4', 'pandas', 'plotly', 'pyarrow', 'pytest', 'rosbags', 'ruff', 'scipy',
+            'xarray',
         ],
         'ros': [
             'ros-jazzy-rclpy', 'ros-jazzy-common-interfaces', 'ros-jazzy-rmw-fastrtps-cpp',
         ],
         'report': ['matplotlib', 'plotly', 'scipy'],
+        'animate': ['imageio-ffmpeg', 'matplotlib', 'pillow'],
         'export': ['netCDF4', 'pandas', 'pyarrow', 'xarray'],
         'response': ['control>=0.10', 'matplotlib', 'scipy'],
     },

@@ -46,7 +46,8 @@ def events(series: Series, shown: Window, units: Units = SI) -> Figure:
     })
     layout = rows_layout(['', units.travel.label('position')])
     layout['xaxis']['title']['text'] = units.time.label('time')
-    layout['xaxis']['range'] = [float(units.time(t)) for t in (shown.start, shown.end)]
+    layout['xaxis']['range'] = _with_margin(float(units.time(shown.start)),
+                                             float(units.time(shown.end)))
     layout['yaxis'].update(tickvals=list(range(len(names))), ticktext=names,
                            range=[len(names) - 0.5, -0.5])
     spans = fault_spans(series)
@@ -88,6 +89,12 @@ def fault_spans(series: Series) -> list[tuple[str, float, float]]:
 def short(name: str) -> str:
     """Return the name of a status without that of the node."""
     return name.rsplit(': ', 1)[-1]
+
+
+def _with_margin(start: float, end: float) -> list[float]:
+    """Return a range a little wider, so that marks at its ends stand clear of the axis."""
+    margin = 0.02 * (end - start)
+    return [start - margin, end + margin]
 
 
 def _caption(spans: list[tuple[str, float, float]]) -> str:

@@ -37,7 +37,6 @@ from hydra_actuator.analysis.window import (
 from hydra_actuator.errors import InputError
 
 DOTS_PER_INCH = 200
-LARGEST, FINEST = 100.0, 2400       # [inch], [1/inch]
 SUFFIXES = ('.png', '.svg', '.pdf')
 
 
@@ -165,7 +164,7 @@ PLOTS = {
     'net': Plot('characteristics and the moving piston', (8.0, 5.0), _net),
     'spectrum': Plot('spectra, natural frequencies marked', (8.0, 5.5), _spectrum),
     'ranges': Plot('lowest and highest along the streamline', (8.0, 5.0), _ranges),
-    'timing': Plot('real time of a node: lateness, sending, stamps', (9.0, 8.0), _timing, True),
+    'timing': Plot('real time of a node: lateness, sending, stamps', (9.0, 9.5), _timing, True),
     'cavities': Plot('volume and number of cavities, and where the oil boils', (11.0, 5.0),
                      _cavities),
     'faults': Plot('faults and events', (9.0, 4.5),
@@ -189,7 +188,9 @@ def plot(name: str, view: View, size: Sequence[float] | None = None):
         sheet = Sheet(figsize=tuple(size or chosen.size), facecolor='white',
                       layout='constrained')
         shape = (len(present), 1) if chosen.stacked else (1, len(present))
-        parts = sheet.subfigures(*shape, squeeze=False).ravel()
+        # What lies one above the other shares the height as on the page.
+        heights = [one.height for one in present] if chosen.stacked else None
+        parts = sheet.subfigures(*shape, squeeze=False, height_ratios=heights).ravel()
         for part, one in zip(parts, present):
             if chosen.stacked:
                 part.suptitle(one.title, fontsize=9)

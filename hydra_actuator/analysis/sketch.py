@@ -5,6 +5,8 @@ The actuator drawn along its streamline, for the head of a map: x is to scale, w
     (pump) ==== [valve] == |  chamber_1 ]piston[ chamber_2  | == [valve] ==== (tank)
 """
 
+from collections.abc import Sequence
+
 from hydra_actuator.analysis.palette import INK
 from matplotlib.patches import FancyBboxPatch, Rectangle
 
@@ -36,7 +38,12 @@ def draw_actuator(axes, ends: list[tuple[float, str]], piston: float, colours: d
         axes.add_patch(FancyBboxPatch(
             (place - 1.5 * unit, -0.24), 3 * unit, 0.48, boxstyle='round,pad=0,rounding_size=0.01',
             facecolor='#e4e8ec', edgecolor=INK, linewidth=0.9))
-    _draw_ends(axes, x[0], x[5], unit)
+    draw_ends(axes, x[0], x[5], unit)
+    draw_names(axes, x)
+
+
+def draw_names(axes, x: Sequence[float]) -> None:
+    """Write under pump, valve, cylinder and tank what they are; x: of the ends of the domains."""
     for place, text in ((x[0], 'pump'), (x[1], 'valve'), ((x[2] + x[3]) / 2, 'cylinder'),
                         (x[4], 'valve'), (x[5], 'tank')):
         axes.text(place, -0.56, text, ha='center', va='top', fontsize=8, color=INK)
@@ -50,7 +57,7 @@ def _draw_piston(axes, piston: float, unit: float) -> None:
                   arrowprops={'arrowstyle': '<->', 'color': INK, 'linewidth': 0.9})
 
 
-def _draw_ends(axes, pump: float, tank: float, unit: float) -> None:
+def draw_ends(axes, pump: float, tank: float, unit: float) -> None:
     """Draw the pump as a circle, round at any scale, and the tank as an open vessel."""
     axes.plot([pump], [0], marker='o', markersize=15, markerfacecolor='white',
               markeredgecolor=INK, clip_on=False)

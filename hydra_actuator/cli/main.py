@@ -23,6 +23,7 @@ VERBS = {
     'simulate': 'an offline run, as fast as possible, into a recording',
     'report': 'one self-contained page about a recording',
     'plot': 'one figure of a recording as PNG, SVG or PDF',
+    'animate': 'the actuator in motion, oil coloured by pressure, as GIF, MP4 or HTML',
     'info': 'what a recording holds',
     'export': 'a recording as CSV, Parquet or NetCDF, with units',
     'recover': 'salvage of an unfinished or damaged recording',

@@ -10,6 +10,7 @@ from hydra_actuator.errors import InputError
 
 SUMMARY = 'one figure of a recording as PNG, SVG or PDF'
 PRESSURE_UNITS = ('Pa', 'bar', 'MPa')
+LARGEST, FINEST = 100.0, 2400       # [inch], [1/inch]
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -52,6 +53,15 @@ def check_choice(arguments: Namespace, verb: str) -> None:
         raise InputError(f"{verb} needs matplotlib: pip install 'hydra_actuator[report]'")
 
 
+def check_size(arguments: Namespace) -> None:
+    """Raise InputError for a size [inch] or a resolution that no picture has."""
+    for length in arguments.size or ():
+        if not 1.0 <= length <= LARGEST:
+            raise InputError(f'--size {length:g} is not within 1 to {LARGEST:g} inch')
+    if not 10 <= arguments.dpi <= FINEST:
+        raise InputError(f'--dpi {arguments.dpi} is not within 10 to {FINEST}')
+
+
 def view(arguments: Namespace, instants=()):
     """Return the view that the command line asks for."""
     from hydra_actuator.analysis.extraction import series_of
@@ -67,14 +77,10 @@ def view(arguments: Namespace, instants=()):
 def run(arguments: Namespace) -> int:
     """Write the figure and name it."""
     check_choice(arguments, 'plot')
+    check_size(arguments)
     from hydra_actuator.analysis.picture_files import check_picture
-    from hydra_actuator.analysis.plot import FINEST, LARGEST, PLOTS, SUFFIXES, write_plot
+    from hydra_actuator.analysis.plot import PLOTS, SUFFIXES, write_plot
 
-    for length in arguments.size or ():
-        if not 1.0 <= length <= LARGEST:
-            raise InputError(f'--size {length:g} is not within 1 to {LARGEST:g} inch')
-    if not 10 <= arguments.dpi <= FINEST:
-        raise InputError(f'--dpi {arguments.dpi} is not within 10 to {FINEST}')
     if arguments.figure not in PLOTS:
         raise InputError(f'no figure {arguments.figure!r}; there are {", ".join(PLOTS)}')
     if arguments.at and arguments.figure != 'streamline':
