@@ -32,15 +32,26 @@ VOLUME, LOWEST, OPEN, OPENED, COLLAPSED, OF_DOMAINS = range(6)
 def gas_volumes(model, state, d: int) -> np.ndarray:
     """Return the gas [m^3] at the whole nodes of a domain with gas, then at its moving face."""
     first, last = model.start[d], model.start[d] + state.last[d]
-    half = half_a_cell(model, d)
-    volumes = 2.0 * half / state.star[first:last + 1]
-    volumes[0] *= 0.5
+    star = np.array(state.star[first:last + 1])
     if model.moving[d]:
-        # the last whole node's gas is at the face
-        volumes[-1] = 0.0
-        return np.append(volumes, state.face_held[d] * model.step_time * model.area[d])
-    volumes[-1] *= 0.5
+        star = np.append(star, 1.0)
+    volumes = gas_amounts(model, state, d) / star
+    if model.moving[d]:
+        volumes[-1] = state.face_held[d] * model.step_time * model.area[d]
     return volumes
+
+
+def gas_amounts(model, state, d: int) -> np.ndarray:
+    """
+    Return held room [Pa m^3] of the same places: p* times volume.
+
+    The last whole node of a chamber has none, its face all from the node before on.
+    """
+    cells = np.full(state.last[d] + 1 + model.moving[d], 2.0)
+    cells[0] = cells[-1] = 1.0
+    if model.moving[d]:
+        cells[-2:] = 0.0, 1.0 + 2.0 * (state.old_length[d] / model.spacing[d] - state.last[d])
+    return half_a_cell(model, d) * cells
 
 
 def half_a_cell(model, d: int) -> float:

@@ -15,7 +15,7 @@ Gas of volume V in a cell keeps oil out of it, counted from its volume at ambien
 from dataclasses import replace
 from functools import cache
 
-from hydra_actuator.core.boiling import gas_volumes, half_a_cell
+from hydra_actuator.core.boiling import gas_amounts, gas_volumes
 from hydra_actuator.core.model import Domain, Junction, set_domain
 from hydra_actuator.core.records import CLOSED
 from hydra_actuator.verification.case import Case, Row
@@ -83,8 +83,8 @@ def displaced(model, state, d: int) -> tuple[float, float]:
         return 0.0, 0.0
     floor, chi = model.floor, model.bulk_modulus[d]
     volume = gas_volumes(model, state, d)
-    held = np.full(len(volume), 2.0 * half_a_cell(model, d))
-    held[[0, -1]] *= 0.5
+    held = gas_amounts(model, state, d)
+    volume, held = volume[held > 0.0], held[held > 0.0]
     before = held / floor
     swollen, ratio = volume - before, np.log(volume / before)
     work = held * ratio - floor * swollen
