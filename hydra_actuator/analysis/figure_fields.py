@@ -83,10 +83,10 @@ def wave_map(series: Series, field: Field, shown: Window, quantity: str,
         x, streamline.gapless(part, getattr(part, quantity)), grid))
     moment, label = units.since(shown.start)
     time = moment(part.time)
-    itself = _heatmap(units.place(grid), time, values, quantity, scale)
+    itself = heatmap(units.place(grid), time, values, quantity, scale)
     change = units.pressure_change if quantity == 'pressure' else scale
-    difference = _heatmap(units.place(grid), time, values - values.mean(axis=0), 'velocity',
-                          change)
+    difference = heatmap(units.place(grid), time, values - values.mean(axis=0), 'velocity',
+                         change)
     itself['visible'], difference['visible'] = not waves, waves
     difference['name'] = f'{quantity} less its mean'
     traces = [itself, difference]
@@ -117,7 +117,7 @@ def whole_run_map(field: Field, quantity: str, buckets: int = WHOLE_RUN_ROWS,
         for part, high in ((highest, True), (lowest, False))
     ]
     time = units.time(field.time[starts])
-    traces = [_heatmap(units.place(grid), time, values, quantity, scale) for values in maps]
+    traces = [heatmap(units.place(grid), time, values, quantity, scale) for values in maps]
     for k, trace in enumerate(traces):
         trace.update(_shared_range(maps, quantity), visible=k == 0)
     layout = map_layout(field, time, units.time.label('time'), units)
@@ -154,8 +154,8 @@ def _surface_colours(quantity: str, values: np.ndarray) -> dict:
     }
 
 
-def _heatmap(grid: np.ndarray, time: np.ndarray, values: np.ndarray, quantity: str,
-             scale: Scale) -> dict:
+def heatmap(grid: np.ndarray, time: np.ndarray, values: np.ndarray, quantity: str,
+            scale: Scale) -> dict:
     """Return a heat map trace of (frames, columns) values, coloured as a quantity is."""
     return {
         'type': 'heatmap', 'name': quantity, 'x': np.asarray(grid, np.float32), 'y': time,

@@ -5,6 +5,7 @@ The report of a recording: one self-contained HTML page, pictures first.
 Shows what was recorded and says what was not; computes no physics anew.
 """
 
+from collections.abc import Callable
 import os
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from hydra_actuator.analysis import (
     boiling,
     facts,
     figure_cavities,
+    figure_comparison,
     figure_events,
     figure_fields,
     figure_lines,
@@ -25,6 +27,7 @@ from hydra_actuator.analysis import (
 from hydra_actuator.analysis.figure import Figure
 from hydra_actuator.analysis.page import GENERATOR, page
 from hydra_actuator.analysis.series import Field, Series
+from hydra_actuator.analysis.units import SI, Units
 from hydra_actuator.analysis.window import (
     active_span,
     best_field,
@@ -36,9 +39,13 @@ from hydra_actuator.analysis.window import (
 from hydra_actuator.errors import InputError
 
 
-def write_report(recording: str | Path, output: str | Path) -> Path:
+def write_report(recording: str | Path, output: str | Path, other: str | Path | None = None,
+                 make_units: Callable[[Series], Units] = lambda series: SI) -> Path:
     """
     Write the report of a recording to an HTML file and return its path.
+
+    other: a second recording, with which it is compared; make_units: what the figures are shown
+    in, by the run.
 
     An earlier report at `output` is replaced, in one step; any other file there is refused.
     InputError if the recording cannot be read, holds no states, or plotly is missing.
@@ -48,7 +55,7 @@ def write_report(recording: str | Path, output: str | Path) -> Path:
     output = Path(output)
     check_output(output)
     series = series_of(recording)
-    text = report_page(series)
+    text = report_page(series, make_units(series), series_of(other) if other else None)
     draft = output.with_name(f'.{output.name}.{os.getpid()}')
     try:
         draft.write_text(text, encoding='utf-8')
@@ -72,26 +79,30 @@ def check_output(output: Path) -> None:
             raise InputError(f'{output} exists and is not a report; it is left as it is')
 
 
-def report_page(series: Series) -> str:
-    """Return the page of a run."""
-    return page(
-        f'Actuator recording {series.name}', _subtitle(series), figures(series), _tables(series),
-        boiling.warnings(series),
-    )
+def report_page(series: Series, units: Units = SI, other: Series | None = None) -> str:
+    """Return the page of a run, compared with another one if there is one."""
+    drawn, tables = figures(series, units), _tables(series)
+    title, warnings = f'Actuator recording {series.name}', boiling.warnings(series)
+    if other is not None:
+        drawn = figure_comparison.comparison(series, other, window_of(series), units) + drawn
+        tables = [*_differences(series, other), *tables]
+        title = f'Actuator recordings {series.name} and {other.name}'
+        warnings += [f'{other.name}: {words}' for words in boiling.warnings(other)]
+    return page(title, _subtitle(series), drawn, tables, warnings)
 
 
-def figures(series: Series) -> list[Figure]:
-    """Return all figures in the order of the page."""
+def figures(series: Series, units: Units = SI) -> list[Figure]:
+    """Return all figures of a run in the order of the page."""
     shown = window_of(series)
     whole = Window(float(series.time[0]), float(series.time[-1]))
     return [
-        *field_figures(series, shown),
-        figure_lines.sections(series, shown),
-        figure_lines.piston(series, shown),
-        figure_lines.command(series, shown),
-        figure_spectrum.spectrum(series, Window(*active_span(series))),
-        *figure_cavities.cavities(series, shown),
-        figure_events.events(series, whole),
+        *field_figures(series, shown, units),
+        figure_lines.sections(series, shown, units),
+        figure_lines.piston(series, shown, units),
+        figure_lines.command(series, shown, units),
+        figure_spectrum.spectrum(series, Window(*active_span(series)), units),
+        *figure_cavities.cavities(series, shown, units),
+        figure_events.events(series, whole, units),
         *timing_figures(series),
     ]
 
@@ -104,7 +115,7 @@ def timing_figures(series: Series) -> list[Figure]:
             figure_timing.stamps(series)]
 
 
-def field_figures(series: Series, shown: Window) -> list[Figure]:
+def field_figures(series: Series, shown: Window, units: Units = SI) -> list[Figure]:
     """Return the figures over streamline and time, from the field or else from the stations."""
     full, stations = series.field, streamline.field_of_stations(series)
     drawn = best_field(full, stations, shown)
@@ -116,23 +127,23 @@ def field_figures(series: Series, shown: Window) -> list[Figure]:
     # A periodic run is told by its periods; another one by the waves, where they are resolved.
     over = shown if shown.frequency else window
     quantities = figure_fields.QUANTITIES
-    result = [figure_fields.surface(series, drawn, over, q) for q in quantities]
-    result += [figure_fields.wave_map(series, mapped, window, q, bool(in_waves))
+    result = [figure_fields.surface(series, drawn, over, q, units) for q in quantities]
+    result += [figure_fields.wave_map(series, mapped, window, q, bool(in_waves), units)
                for q in quantities]
-    result.append(figure_profiles.over_time(series, drawn, over))
-    result.append(_net(series, drawn, shown))
+    result.append(figure_profiles.over_time(series, drawn, over, units))
+    result.append(_net(series, drawn, shown, units))
     if full is None:
         result.append(Figure.absent('whole', 'The whole run', 'the field was not recorded'))
         return result
     buckets = whole_run_buckets(full, shown, figure_fields.WHOLE_RUN_ROWS)
-    result += [figure_fields.whole_run_map(full, q, buckets) for q in quantities]
-    return [*result, figure_ranges.ranges(full, stations)]
+    result += [figure_fields.whole_run_map(full, q, buckets, units) for q in quantities]
+    return [*result, figure_ranges.ranges(full, stations, units)]
 
 
-def _net(series: Series, field: Field, shown: Window) -> Figure:
+def _net(series: Series, field: Field, shown: Window, units: Units) -> Figure:
     """Return the characteristic net of a few travels, where the recording has parameters."""
     window = figure_net.net_window(series, field, shown) if series.parameters else shown
-    return figure_net.net(series, field, window)
+    return figure_net.net(series, field, window, units)
 
 
 def _subtitle(series: Series) -> str:
@@ -153,6 +164,16 @@ def _tables(series: Series) -> list[tuple]:
         tables.append(('Real time over the whole run', '', real_time))
     title = 'Parameters that differ from the defaults'
     return [*tables, (title, _about_parameters(series, changed), changed)]
+
+
+def _differences(series: Series, other: Series) -> list[tuple]:
+    """Return the tables of a comparison: the other run's facts, parameters that differ."""
+    names = dict.fromkeys((*series.parameters, *other.parameters))
+    rows = [(name, f'{series.parameters.get(name, "-")} / {other.parameters.get(name, "-")}')
+            for name in names if series.parameters.get(name) != other.parameters.get(name)]
+    return [(f'Parameters in which {series.name} and {other.name} differ',
+             '' if rows else 'None.', rows),
+            (f'The run {other.name}', '', facts.run_facts(other))]
 
 
 def _about_parameters(series: Series, changed: list) -> str:

@@ -36,6 +36,11 @@ def add_choice(parser: ArgumentParser) -> None:
                         help='start of the part shown [s from the first record]')
     parser.add_argument('--to', dest='end', type=float, metavar='T',
                         help='end of the part shown [s]; default: what the report shows first')
+    add_units(parser)
+
+
+def add_units(parser: ArgumentParser) -> None:
+    """Declare in which units a run is shown."""
     parser.add_argument('--units', choices=PRESSURE_UNITS, default='MPa',
                         help='of pressures (default MPa)')
     parser.add_argument('--nondimensional', action='store_true',
@@ -66,12 +71,16 @@ def view(arguments: Namespace, instants=()):
     """Return the view that the command line asks for."""
     from hydra_actuator.analysis.extraction import series_of
     from hydra_actuator.analysis.plot import view_of
-    from hydra_actuator.analysis.units import nondimensional, units_named
 
     series = series_of(arguments.recording)
-    units = (nondimensional(series) if arguments.nondimensional
-             else units_named(arguments.units))
-    return view_of(series, arguments.start, arguments.end, instants, units)
+    return view_of(series, arguments.start, arguments.end, instants, units_of(arguments, series))
+
+
+def units_of(arguments: Namespace, series):
+    """Return the units asked for, for a run; InputError where it cannot have them."""
+    from hydra_actuator.analysis.units import nondimensional, units_named
+
+    return nondimensional(series) if arguments.nondimensional else units_named(arguments.units)
 
 
 def run(arguments: Namespace) -> int:

@@ -58,9 +58,20 @@ def test_bad_paths_are_one_line_and_exit_code_2(recording, capsys, monkeypatch, 
     assert culprit in message
 
 
-def test_a_second_recording_is_refused(recording, capsys):
-    assert main(['report', str(recording), str(recording), '-o', 'report.html']) == 2
-    assert 'unrecognized arguments' in capsys.readouterr().err
+def test_a_second_recording_is_compared_with(recording):
+    page = recording.parent / 'report.html'
+    assert main(['report', str(recording), str(recording), '-o', str(page)]) == 0
+    text = page.read_text(encoding='utf-8')
+    assert 'id="comparison"' in text
+    assert 'run and run differ' in text
+    assert 'data-missing="difference_pressure"' in text
+
+
+def test_the_papers_units_are_refused_without_parameters(recording, capsys):
+    page = recording.parent / 'report.html'
+    assert main(['report', str(recording), '-o', str(page), '--nondimensional']) == 2
+    assert 'holds no parameters' in capsys.readouterr().err
+    assert not page.exists()
 
 
 def test_a_recording_of_one_state_gives_a_page(tmp_path):
