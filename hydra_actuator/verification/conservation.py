@@ -7,9 +7,12 @@ weights of sixth order, so that they do not hide or add to the method's own erro
 
     rho (e + u^2/2),  e = (chi/rho0)(ln r + 1/r - 1),  r = rho/rho0
 
-Gas of volume V in a cell keeps oil out of it, counted from its volume at ambient pressure:
+Gas of volume V in a cell keeps oil out of it:
 
     integral of rho dV  [kg],  integral of p (1 + p/2 chi) dV  [J],  p = K/V - floor
+
+in closed form from V = 0 at a pressure p* of REST_STAR on. K is constant but at a moving face,
+where it grows with the chamber; that it does so at REST_STAR is off by K ln(p*/REST_STAR).
 """
 
 from dataclasses import replace
@@ -40,6 +43,7 @@ FAINT = 0.01e6          # [Pa] of a wave that hardly steepens in 10 s
 DRIFT_BAR = 1e-9        # of the mass, while the wave is smooth
 # mass that fronts add, over the energy they lose: see closed_line
 FRONT_GAIN = 0.5 * ((2.0 * COURANT - 1.0) / (COURANT * (1.0 - COURANT)) - 1.0)
+REST_STAR = 10e6        # [Pa] absolute less vapour pressure
 PARTS = 100             # of a closed line's run, with a weighing after each
 # kinds of oil and of wall friction a closed line must keep its mass with
 OILS = {
@@ -82,15 +86,14 @@ def displaced(model, state, d: int) -> tuple[float, float]:
     if model.end_strength[d] == 0.0:
         return 0.0, 0.0
     floor, chi = model.floor, model.bulk_modulus[d]
-    volume = gas_volumes(model, state, d)
-    held = gas_amounts(model, state, d)
+    volume, held = gas_volumes(model, state, d), gas_amounts(model, state, d)
     volume, held = volume[held > 0.0], held[held > 0.0]
-    before = held / floor
-    swollen, ratio = volume - before, np.log(volume / before)
-    work = held * ratio - floor * swollen
-    square = held ** 2 * (1.0 / before - 1.0 / volume) - 2.0 * floor * held * ratio + (
-        floor ** 2 * swollen)
-    return (float(np.sum(DENSITY * (swollen + work / chi))),
+    star = held / volume
+    ratio, gap = np.log(REST_STAR / star), 1.0 / REST_STAR - 1.0 / star
+    work = held * (ratio + floor * gap + (REST_STAR - floor) / REST_STAR)
+    square = held * (REST_STAR - star - 2.0 * floor * ratio - floor ** 2 * gap
+                     + (REST_STAR - floor) ** 2 / REST_STAR)
+    return (float(np.sum(DENSITY * (volume + work / chi))),
             float(np.sum(work + square / (2.0 * chi))))
 
 

@@ -170,7 +170,7 @@ def _seal_friction(parameters: Parameters, speed: np.ndarray) -> np.ndarray:
 
 
 DRIVES = {
-    'smooth': Drive(one_way, {}, 0.03, 0.05, 1e-6, 1e-6, 1e-6,
+    'smooth': Drive(one_way, {}, 0.03, 0.05, 1e-8, 1e-6, 1e-6,
                     'smooth waves, the valve never shut'),
     'boiling': Drive(slamming, {'tank.pressure': 0.0}, 0.03, 0.07, 1e-3, 1e-3, 1e-5,
                      'fronts of collapsing cavities, a valve that shuts'),
