@@ -11,7 +11,6 @@ from pathlib import Path
 
 from hydra_actuator.parameters.contradictions import refuse_contradictions
 from hydra_actuator.parameters.definition import Parameter, ParameterError, Value
-from hydra_actuator.parameters.supported import refuse_unavailable
 from hydra_actuator.parameters.table import belongs_to_ros, definitions, PARAMETERS, unknown
 from hydra_actuator.parameters.yaml_files import as_parameter_file, read_parameter_file
 
@@ -34,7 +33,6 @@ class Parameters(Mapping[str, Value]):
         self._table = definitions(sections)
         self._values = _complete(given, self._table)
         refuse_contradictions(self._values)
-        refuse_unavailable(self._values)
 
     def __getitem__(self, name: str) -> Value:
         """Return a value; a KeyError names the nearest parameter there is."""

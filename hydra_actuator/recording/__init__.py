@@ -16,6 +16,7 @@ Nothing in here imports rclpy; it knows the channels of the actuator, not its ph
     limits       when a file is full, and when the disk is
     files        the files of a recording and the list of them
     writer       a recording being written
+    memory       the last seconds of what would be recorded
     queue        a writer behind a thread and a bounded queue
     scan         one MCAP file being read, finished or not
     series       the messages of one topic as arrays

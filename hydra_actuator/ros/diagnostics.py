@@ -27,6 +27,7 @@ class Reports:
 
     def __init__(self, node: Node):
         self.keep: Keep = lambda *message: None
+        self.notice: Callable[[int, str, str], None] = lambda *event: None
         self.log_time: Callable[[int], int] = lambda system_time: system_time
         self._prefix = node.get_fully_qualified_name()
         self._diagnostics = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
@@ -43,6 +44,7 @@ class Reports:
     ) -> None:
         """Publish and record one event at once."""
         self._send(self._events, [Status(name, level, message, values or {})])
+        self.notice(level, name, message)
 
     def _send(self, publisher, statuses: list[Status]) -> None:
         now = time.time_ns()

@@ -93,9 +93,7 @@ class ActuatorNode(LifecycleNode):
         self.rig.start()
         self._enter('active')
         period = self.rig.clock.period
-        where = f'recording to {self.rig.recorder.path}' if self.rig.recorder.recording else (
-            'not recording')
-        self.get_logger().info(f'active: {1.0 / period:.6g} Hz, {where}')
+        self.get_logger().info(f'active: {1.0 / period:.6g} Hz, {self.rig.recorder.doing}')
         return SUCCESS
 
     @transition(ERROR)

@@ -3,7 +3,7 @@
 The recording of a node: a directory named by node and time, begun and ended at will.
 
 Messages are handed to a queue with a thread of its own behind it; what comes while nothing is
-recorded is let go.
+recorded is let go. In snapshot mode they stay in memory, see `snapshots`.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -19,6 +19,7 @@ from hydra_actuator.recording.queue import QueuedWriter, QueueStatistics
 from hydra_actuator.recording.segment import Message
 from hydra_actuator.recording.topics import Topic
 from hydra_actuator.recording.writer import RecordingWriter
+from hydra_actuator.ros.snapshots import Event, Snapshots
 
 # A closing file is written within this time [s], or given up.
 CLOSING = 1.0
@@ -34,10 +35,13 @@ class Recorder:
         """
         Take the fully qualified name of the node, and what its recordings carry.
 
-        on_resume: told, in the recorder's thread, when writing goes on after a failure.
+        restate: asks, in the recorder's thread, for a message on what has held for long;
+        on_event: told of each snapshot.
         """
         self.path: Path | None = None
-        self.on_resume: Callable[[], None] = lambda: None
+        self.snapshots: Snapshots | None = None
+        self.restate: Callable[[], None] = lambda: None
+        self.on_event: Event = lambda *event: None
         self._node = node.strip('/').replace('/', '_')
         self._parameters = parameters
         self._topics = topics
@@ -46,8 +50,16 @@ class Recorder:
 
     @property
     def recording(self) -> bool:
-        """Tell whether a recording is open."""
-        return self._writer is not None
+        """Tell whether a recording is open, or memory kept for snapshots."""
+        return self._writer is not None or self.snapshots is not None
+
+    @property
+    def doing(self) -> str:
+        """What is done with messages now, in words."""
+        if self.snapshots is not None:
+            duration = self._parameters['recording.snapshot_duration']
+            return f'keeping the last {duration:g} s for snapshots'
+        return 'not recording' if self._writer is None else f'recording to {self.path}'
 
     @property
     def error(self) -> str:
@@ -89,40 +101,70 @@ class Recorder:
         except OSError:
             return 0
 
-    def open(self) -> Path:
-        """Begin a recording and return its directory; raises RecordingError."""
-        directory = Path(self._parameters['recording.directory']).expanduser()
-        name = f'{self._node}_{time.strftime("%Y%m%d_%H%M%S")}'
-        writer = self._new_writer(directory, name)
+    def open(self) -> None:
+        """Begin a recording, or to keep messages for snapshots; raises RecordingError."""
+        if self._parameters['recording.mode'] == 'snapshot':
+            snapshots = Snapshots(
+                self._parameters['recording.snapshot_duration'], self._named_writer)
+            snapshots.restate = lambda: self.restate()
+            snapshots.on_event = lambda *event: self.on_event(*event)
+            self.snapshots = snapshots
+            return
+        writer = self._named_writer()
         self.path = writer.directory
         self._writer = QueuedWriter(writer)
-        self._writer.on_resume = lambda: self.on_resume()
-        return self.path
+        self._writer.on_resume = lambda: self.restate()
 
     def close(self) -> bool:
         """End the recording; False if it could not be finished in time."""
         writer, self._writer = self._writer, None
+        snapshots, self.snapshots = self.snapshots, None
+        if snapshots is not None:
+            complete = snapshots.close(CLOSING)
+            self.path = snapshots.path or Path(self._parameters['recording.directory'])
+            return complete
         return _closed(writer)
 
     def begin_anew(self) -> bool:
         """Go on in a new recording, if one is open; False if the old one is incomplete."""
+        if self.snapshots is not None:
+            self.snapshots.memory.clear()
         before = self._writer
         if before is None:
             return True
         self.open()
         return _closed(before)
 
+    def snapshot(self) -> tuple[bool, str]:
+        """Write what is kept, now; tell whether that goes well, and where or why not."""
+        snapshots = self.snapshots
+        if snapshots is not None:
+            return snapshots.take('asked for', CLOSING)
+        mode = self._parameters['recording.mode']
+        return False, f'{self.doing}, recording.mode = {mode}: nothing is kept for a snapshot'
+
+    def notice(self, level: int, name: str, message: str) -> None:
+        """Hear of an event: an error or a fault is worth a snapshot."""
+        snapshots = self.snapshots
+        if snapshots is not None:
+            snapshots.notice(level, name, message)
+
     def put(self, topic: str, log_ns: int, publish_ns: int, data: bytes) -> None:
         """Keep one message."""
-        writer = self._writer
-        if writer is not None:
-            writer.put(topic, log_ns, publish_ns, data)
+        self.put_batch([(topic, log_ns, publish_ns, data)])
 
     def put_batch(self, messages: list[Message]) -> None:
         """Keep messages (topic, log time, publish time, bytes)."""
-        writer = self._writer
+        writer, snapshots = self._writer, self.snapshots
         if writer is not None:
             writer.put_batch(messages)
+        elif snapshots is not None:
+            snapshots.memory.put_batch(messages)
+
+    def _named_writer(self) -> RecordingWriter:
+        """Open a directory named by node and time."""
+        directory = Path(self._parameters['recording.directory']).expanduser()
+        return self._new_writer(directory, f'{self._node}_{time.strftime("%Y%m%d_%H%M%S")}')
 
     def _new_writer(self, directory: Path, name: str) -> RecordingWriter:
         """Open a directory of that name, or the first of name_2, name_3 ... that is free."""

@@ -92,6 +92,7 @@ class Rig:
         self._build_outputs()
         reports.log_time = self.clock.log_time
         reports.keep = self.recorder.put
+        reports.notice = self.recorder.notice
 
     def start(self) -> None:
         """Begin to tick, with command 0."""
@@ -187,7 +188,7 @@ class Rig:
         """Stop, end the recording, give up all topics; False if the recording is incomplete."""
         self.stop()
         complete = self.recorder.close()
-        self._reports.keep = lambda *message: None
+        self._reports.keep = self._reports.notice = lambda *message: None
         self._reports.log_time = lambda system_time: system_time
         self._disconnect()
         return complete
@@ -227,8 +228,9 @@ class Rig:
         self.outputs.on_error = lambda error: self._fail(f'publishing: {error!r}')
         self.outputs.on_restart = self._record_anew
         self.outputs.on_faults = self._announce
-        # What holds stands in the new file as well.
-        self.recorder.on_resume = self.outputs.forget_inputs
+        # What holds stands in each new file and each snapshot as well.
+        self.recorder.restate = self.outputs.forget_inputs
+        self.recorder.on_event = self._reports.event
         self.plant.on_faults = self._set_instruments
         self.outputs.after_batch = Watch(self._reports.event, self._vitals.watched()).look
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The services of a node: reset, step, pause, record, clear_faults, enable.
+The services of a node: reset, step, pause, record, snapshot, clear_faults, enable.
 
 What a service cannot do now it refuses with the reason; it never changes the lifecycle state.
 """
@@ -30,7 +30,8 @@ class Services:
         self._rig = rig
         self._reports = reports
         for name, action in (
-            ('reset', self.reset), ('step', self.step), ('clear_faults', self._clear_faults)
+            ('reset', self.reset), ('step', self.step), ('clear_faults', self._clear_faults),
+            ('snapshot', self._snapshot),
         ):
             self._offer(node, Trigger, name, lambda request, action=action: action())
         for name, switch in (
@@ -89,17 +90,24 @@ class Services:
             return False, 'not configured'
         recorder = rig.recorder
         if wanted and recorder.recording:
-            return True, f'recording to {recorder.path} already'
+            return True, f'{recorder.doing} already'
         if wanted:
             try:
                 rig.record()
             except (InputError, OSError) as error:
                 return False, str(error)
-            return True, f'recording to {recorder.path}'
+            return True, recorder.doing
         if not recorder.recording:
             return True, 'not recording'
+        kept = recorder.snapshots is not None
         complete = recorder.close()
+        if kept and complete:
+            return True, 'nothing is kept any more'
         return complete, f'{recorder.path} is {"complete" if complete else "not complete"}'
+
+    def _snapshot(self) -> tuple[bool, str]:
+        rig = self._rig()
+        return (False, 'not configured') if rig is None else rig.recorder.snapshot()
 
     def _clear_faults(self) -> tuple[bool, str]:
         rig = self._rig()

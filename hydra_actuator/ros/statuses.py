@@ -157,6 +157,8 @@ def command(
 def recorder(recorder: Recorder) -> Status:
     """Return how the recording goes."""
     statistics = recorder.statistics
+    if recorder.snapshots is not None:
+        return _memory(recorder)
     if statistics is None:
         last = {'last_path': str(recorder.path)} if recorder.path else {}
         return Status('Recorder', OK, 'not recording', last)
@@ -182,6 +184,20 @@ def recorder(recorder: Recorder) -> Status:
     if dropped:
         return Status('Recorder', WARN, f'{dropped} messages dropped', values)
     return Status('Recorder', OK, f'recording to {recorder.path}', values)
+
+
+def _memory(recorder: Recorder) -> Status:
+    """Return what is kept for snapshots, and what became of the last."""
+    snapshots = recorder.snapshots
+    kept = snapshots.memory.kept
+    values = {
+        'kept_messages': str(kept.messages), 'kept_bytes': str(kept.bytes),
+        'kept_seconds': f'{kept.span:.3f}', 'snapshots': str(snapshots.written),
+        'last_path': str(snapshots.path or ''),
+    }
+    if snapshots.error:
+        return Status('Recorder', ERROR, f'no snapshot: {snapshots.error}', values)
+    return Status('Recorder', OK, recorder.doing, values)
 
 
 def oil(

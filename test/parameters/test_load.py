@@ -153,12 +153,3 @@ def test_parameters_travel_between_processes():
 def test_looking_up_a_misspelt_name_says_what_was_meant():
     with pytest.raises(KeyError, match=r'valve\.stroke'):
         load_parameters()['valve.strok']
-
-
-@pytest.mark.parametrize('changes', [
-    {'recording.mode': 'snapshot'},
-])
-def test_option_this_version_does_not_have_is_refused_not_ignored(changes):
-    (name,) = changes
-    with pytest.raises(ParameterError, match=f'^{name} = .* is not available in this version'):
-        load_parameters(overrides=changes)
