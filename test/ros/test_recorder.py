@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """The recorder of a running node: a disk that fills and has room again, snapshots."""
 
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 import shutil
 import subprocess
 
 from diagnostic_msgs.msg import DiagnosticArray
+from hydra_actuator.parameters import load_parameters
+from hydra_actuator.recording import messages
 from hydra_actuator.recording.reader import load_recording
+from hydra_actuator.recording.topics import Topic
+from hydra_actuator.ros.recorder import Recorder
 import pytest
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
@@ -97,3 +102,17 @@ def test_a_node_in_snapshot_mode_writes_its_last_seconds_when_asked_and_for_a_fa
     code, _ = process.end()
     assert code == 0, process.text
     assert len(list(tmp_path.glob('actuator_*'))) == 2
+
+
+def test_twenty_recorders_that_begin_at_once_each_have_a_recording_of_their_own(tmp_path):
+    parameters = load_parameters(overrides={'recording.directory': str(tmp_path / 'new')})
+    topic = Topic('/a', messages.FLOAT64)
+    recorders = [Recorder('/actuator', parameters, [topic], {}) for _ in range(20)]
+    with ThreadPoolExecutor(20) as pool:
+        list(pool.map(Recorder.open, recorders))
+    for number, recorder in enumerate(recorders):
+        recorder.put(topic.name, number, number, messages.float64(number))
+        assert recorder.close()
+    assert len({recorder.path for recorder in recorders}) == 20
+    for number, recorder in enumerate(recorders):
+        assert load_recording(recorder.path).series(topic.name).stamps.tolist() == [number]
