@@ -17,6 +17,8 @@ from hydra_actuator.recording.segment import Segment
 
 # Files that wait for their end are open; no more than this.
 _MOST_UNFINISHED = 8
+# A file's name may have 255 bytes, the millionth file's too.
+_LONGEST_NAME = 255 - len('_999999.mcap')
 
 
 @dataclass(frozen=True)
@@ -177,6 +179,9 @@ def make_directory(directory: Path) -> list[Path]:
         str(directory).encode()
     except UnicodeEncodeError:
         raise RecordingError(f'{str(directory)!r} cannot be made: not UTF-8') from None
+    if len(os.fsencode(directory.name)) > _LONGEST_NAME:
+        raise RecordingError(
+            f'{directory} cannot be made: name too long, more than {_LONGEST_NAME} bytes')
     missing = [path for path in (directory, *directory.parents) if not os.path.lexists(path)]
     try:
         directory.parent.mkdir(parents=True, exist_ok=True)

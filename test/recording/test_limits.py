@@ -11,7 +11,7 @@ from hydra_actuator.recording.queue import QueuedWriter
 from hydra_actuator.recording.reader import load_recording
 from hydra_actuator.recording.recovery import recover
 from hydra_actuator.recording.topics import Topic
-from hydra_actuator.recording.writer import RecordingFailure, RecordingWriter
+from hydra_actuator.recording.writer import RecordingError, RecordingFailure, RecordingWriter
 from mcap.reader import make_reader
 import pytest
 from rosbags.rosbag2 import Reader
@@ -177,3 +177,10 @@ def test_behind_the_queue_the_interruption_is_an_error_until_there_is_space(
     with Reader(tmp_path / 'run') as reader:
         assert reader.message_count == sum(statistics.written.values())
     assert [path.name for path in files_of(tmp_path / 'run')] == ['run_0.mcap', 'run_1.mcap']
+
+
+def test_the_longest_name_has_room_for_many_files(tmp_path):
+    with pytest.raises(RecordingError, match='name too long, more than 243 bytes'):
+        RecordingWriter(tmp_path / ('x' * 244), TOPICS)
+    written(tmp_path / ('x' * 243), limits=Limits(split_duration=0.1))
+    assert len(files_of(tmp_path / ('x' * 243))) > 10
