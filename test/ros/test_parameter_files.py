@@ -37,7 +37,10 @@ def same(ours, theirs):
     }
 
 
-@pytest.mark.parametrize('path', sorted(CONFIG.glob('*.yaml')), ids=lambda path: path.name)
+# controllers.yaml is for the controller manager, whose nodes have parameters of their own.
+@pytest.mark.parametrize(
+    'path', sorted(set(CONFIG.glob('*.yaml')) - {CONFIG / 'controllers.yaml'}),
+    ids=lambda path: path.name)
 def test_shipped_file_means_the_same_to_rcl(path):
     assert same(read_parameter_file(path), read_by_rcl(path))
 
