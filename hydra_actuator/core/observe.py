@@ -56,9 +56,10 @@ def find_limits(model, state):
 
 @formula
 def runs_away(model, state):
-    """Return whether oil leaves an end at half the speed of sound or more, or at no number."""
+    """Return whether oil leaves an end at twice the allowed speed, c/2 or no number."""
+    most = min(0.5, 2.0 * model.max_mach)
     for end in range(state.end_velocity.size):
-        if not abs(state.end_velocity[end]) < 0.5 * model.wave_speed[end // 2]:
+        if not abs(state.end_velocity[end]) < most * model.wave_speed[end // 2]:
             return True
     return False
 

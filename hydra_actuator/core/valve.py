@@ -28,6 +28,8 @@ MOST_RING_PASSES = 40
 # At zero flow an open edge has no slope, and a flow around the ring meets no resistance: this
 # part of the impedances keeps the matrix regular. It steers the steps, not where they end.
 FIRMNESS = 1e-9
+# Of K': a spool that creeps towards null for ever leaves openings whose squares vanish.
+LEAST_CONDUCTANCE = 1e-60
 
 
 @formula
@@ -37,16 +39,23 @@ def opening(displacement):
 
 
 @formula
+def conductance(flow_gain, displacement):
+    """Return K' [m^3/(s sqrt(Pa))] of an edge, 0 where its square is no longer a number."""
+    k = flow_gain * opening(displacement)
+    return 0.0 if k < LEAST_CONDUCTANCE else k
+
+
+@formula
 def edge_coefficients(valve, spool_1, spool_2, coefficient):
     """
     Write K' [m^3/(s sqrt(Pa))] of the four edges at two displacements [m] into `coefficient`.
 
     Spool 1 opens PA (+) and AT (-), spool 2 BT (+) and PB (-); one spool moves as both.
     """
-    coefficient[0] = valve.flow_gain[0] * opening(spool_1 - valve.overlap[0])
-    coefficient[1] = valve.flow_gain[1] * opening(-spool_2 - valve.overlap[1])
-    coefficient[2] = valve.flow_gain[2] * opening(-spool_1 - valve.overlap[2])
-    coefficient[3] = valve.flow_gain[3] * opening(spool_2 - valve.overlap[3])
+    coefficient[0] = conductance(valve.flow_gain[0], spool_1 - valve.overlap[0])
+    coefficient[1] = conductance(valve.flow_gain[1], -spool_2 - valve.overlap[1])
+    coefficient[2] = conductance(valve.flow_gain[2], -spool_1 - valve.overlap[2])
+    coefficient[3] = conductance(valve.flow_gain[3], spool_2 - valve.overlap[3])
 
 
 @formula

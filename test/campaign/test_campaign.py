@@ -10,6 +10,8 @@ import pytest
 
 SETS, SEQUENCES = 10_000, 200
 SAMPLE_SETS, SAMPLE_SEQUENCES = 50, 12
+# Sets that once failed, with the budget they failed at.
+ONCE_FAILED, THEIR_BUDGET = (30, 42, 87, 140, 581, 1952, 2316, 3205, 3253, 3282, 3397), 1.5e5
 # Node updates: 0.2 s of the shipped actuator at 140 cells, and at 200.
 SET_BUDGET, SAMPLE_BUDGET, SEQUENCE_BUDGET = 3e6, 3e5, 1e7
 FULL_CELLS, SAMPLE_CELLS = 200, 40
@@ -34,6 +36,10 @@ def test_a_sample_of_sets_runs_or_is_refused():
     assert not failures(outcomes)
     kinds = [outcome.kind for outcome in outcomes.values()]
     assert kinds.count(RAN) > 10 and kinds.count(REFUSED) > 5
+
+
+def test_sets_that_once_failed_do_not():
+    assert not failures({k: become(k, False, THEIR_BUDGET) for k in ONCE_FAILED})
 
 
 def test_a_sample_of_sequences_runs():

@@ -34,6 +34,16 @@ def valve_of(**fields) -> np.record:
     return valve[0]
 
 
+def test_a_spool_that_creeps_to_null_shuts_its_edges_at_last():
+    coefficient = np.ones(4)
+    edge_coefficients(valve_of(), 1e-170, -1e-162, coefficient)
+    assert not coefficient.any()
+    edge_coefficients(valve_of(), 1e-20, 1e-20, coefficient)
+    assert coefficient[0] > 0.0
+    edge_coefficients(valve_of(), math.nan, 0.0, coefficient)
+    assert math.isnan(coefficient[0])
+
+
 def end(pressure: float, velocity: float, area: float, guess: float) -> End:
     wave = SPEED * math.log1p(pressure / MODULUS) + velocity
     return End(wave, guess, 1.0 / SPEED, MODULUS, area, DENSITY * SPEED / area, 1.0 / area)
