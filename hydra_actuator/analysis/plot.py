@@ -19,12 +19,12 @@ from hydra_actuator.analysis import (
     figure_profiles,
     figure_ranges,
     figure_spectrum,
-    figure_timing,
     streamline,
 )
 from hydra_actuator.analysis.figure import Figure
 from hydra_actuator.analysis.picture_files import check_picture, write_whole
 from hydra_actuator.analysis.printing import draw, STYLE
+from hydra_actuator.analysis.report import net_figure, timing_figures
 from hydra_actuator.analysis.series import Field, Series
 from hydra_actuator.analysis.units import SI, Units
 from hydra_actuator.analysis.window import (
@@ -105,23 +105,14 @@ def _map(view: View) -> list[Figure]:
 
 
 def _net(view: View) -> list[Figure]:
-    field = view.field
-    part = view.part
-    if part is None and view.series.parameters:
-        part = figure_net.net_window(view.series, field, view.shown)
-    return [figure_net.net(view.series, field, part or view.shown, view.units)]
+    if view.part is None:
+        return [net_figure(view.series, view.field, view.shown, view.units)]
+    return [figure_net.net(view.series, view.field, view.part, view.units)]
 
 
 def _spectrum(view: View) -> list[Figure]:
     part = view.part or Window(*active_span(view.series))
     return [figure_spectrum.spectrum(view.series, part, view.units)]
-
-
-def _timing(view: View) -> list[Figure]:
-    if view.series.source == 'simulate':
-        raise InputError(f'{view.series.name} is an offline run, which keeps no real time')
-    return [figure_timing.real_time(view.series), figure_timing.sending(view.series),
-            figure_timing.stamps(view.series)]
 
 
 def _cavities(view: View) -> list[Figure]:
@@ -164,7 +155,8 @@ PLOTS = {
     'net': Plot('characteristics and the moving piston', (8.0, 5.0), _net),
     'spectrum': Plot('spectra, natural frequencies marked', (8.0, 5.5), _spectrum),
     'ranges': Plot('lowest and highest along the streamline', (8.0, 5.0), _ranges),
-    'timing': Plot('real time of a node: lateness, sending, stamps', (9.0, 9.5), _timing, True),
+    'timing': Plot('real time of a node: lateness, sending, stamps', (9.0, 9.5),
+                   lambda v: timing_figures(v.series), True),
     'cavities': Plot('volume and number of cavities, and where the oil boils', (11.0, 5.0),
                      _cavities),
     'faults': Plot('faults and events', (9.0, 4.5),

@@ -131,7 +131,7 @@ def field_figures(series: Series, shown: Window, units: Units = SI) -> list[Figu
     result += [figure_fields.wave_map(series, mapped, window, q, bool(in_waves), units)
                for q in quantities]
     result.append(figure_profiles.over_time(series, drawn, over, units))
-    result.append(_net(series, drawn, shown, units))
+    result.append(net_figure(series, drawn, shown, units))
     if full is None:
         result.append(Figure.absent('whole', 'The whole run', 'the field was not recorded'))
         return result
@@ -140,7 +140,7 @@ def field_figures(series: Series, shown: Window, units: Units = SI) -> list[Figu
     return [*result, figure_ranges.ranges(full, stations, units)]
 
 
-def _net(series: Series, field: Field, shown: Window, units: Units) -> Figure:
+def net_figure(series: Series, field: Field, shown: Window, units: Units) -> Figure:
     """Return the characteristic net of a few travels, where the recording has parameters."""
     window = figure_net.net_window(series, field, shown) if series.parameters else shown
     return figure_net.net(series, field, window, units)

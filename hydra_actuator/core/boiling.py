@@ -20,6 +20,7 @@ opened - collapsed. Without gas all this is 0, and costs a step nothing.
 
 import math
 
+from hydra_actuator.core.cavity import face_strength
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.fluid import pressure_of
 import numpy as np
@@ -50,7 +51,7 @@ def gas_amounts(model, state, d: int) -> np.ndarray:
     cells = np.full(state.last[d] + 1 + model.moving[d], 2.0)
     cells[0] = cells[-1] = 1.0
     if model.moving[d]:
-        cells[-2:] = 0.0, 1.0 + 2.0 * (state.old_length[d] / model.spacing[d] - state.last[d])
+        cells[-2:] = 0.0, face_strength.py_func(model, state, d) / model.end_strength[d]
     return half_a_cell(model, d) * cells
 
 
@@ -67,9 +68,8 @@ def domain_cavity_volume(model, state, d):
     first, last = model.start[d], model.start[d] + state.last[d]
     total = max(1.0 / state.end_star[2 * d] - at_ambient, 0.0)
     if model.moving[d] == 1:
-        held = state.face_held[d] / model.end_strength[d]
-        beyond = state.old_length[d] / model.spacing[d] - state.last[d]
-        total += max(held - (1.0 + 2.0 * beyond) * at_ambient, 0.0)
+        swollen = state.face_held[d] - face_strength(model, state, d) * at_ambient
+        total += max(swollen / model.end_strength[d], 0.0)
     else:
         total += max(1.0 / state.end_star[2 * d + 1] - at_ambient, 0.0)
     for i in range(first + 1, last):

@@ -32,6 +32,8 @@ from hydra_actuator.core.fluid import compression_series, relative_compression
 ROUNDS_INSIDE, ROUNDS_AT_END = 2, 3
 # Of mu/c: where the series for the oil's pressure still is good to 3e-6, far beyond any oil.
 STIFFEST = 1.5
+# Of a cell: a face that has just passed its last whole node keeps this much gas at least.
+FARTHEST_INSIDE = -0.4
 
 
 @formula
@@ -88,7 +90,7 @@ def fill_cavities(model, state):
 def face_strength(model, state, d):
     """Return the gas's strength [Pa m/s] at a moving face, at the level before the step."""
     beyond = state.old_length[d] / model.spacing[d] - state.last[d]
-    return model.end_strength[d] * (1.0 + 2.0 * max(beyond, -0.4))
+    return model.end_strength[d] * (1.0 + 2.0 * max(beyond, FARTHEST_INSIDE))
 
 
 @formula

@@ -8,13 +8,12 @@ The main job, alone: a node in a process of its own, driven over DDS from this o
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-import os
 from pathlib import Path
 import time
 
 from hydra_actuator.errors import Failure
 from hydra_actuator.ros.child import ChildNode
-from hydra_actuator.ros.domain import loopback_environment, own_domain
+from hydra_actuator.ros.domain import alone
 
 FREQUENCY = 50.0
 # The first start on a machine compiles the solver.
@@ -48,10 +47,7 @@ def run_demo(duration: float, output: Path, progress: Progress) -> DemoRun:
     The node runs on the defaults, which are those of config/actuator.yaml, with the spool of a
     fast servo-valve. Raises Failure if the node does not come up.
     """
-    with own_domain() as domain:
-        environment = loopback_environment(domain)
-        os.environ.clear()
-        os.environ.update(environment)
+    with alone():
         with ChildNode(_ros_arguments(output)) as node:
             run = _drive(node, duration, progress)
             run.exit_code = node.stop()

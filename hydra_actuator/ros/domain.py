@@ -33,6 +33,21 @@ def own_domain() -> Iterator[int]:
     raise Failure('all ROS domains from 1 to 101 are in use here')
 
 
+@contextmanager
+def alone() -> Iterator[int]:
+    """Have this process's environment be that of a free domain meanwhile; yield its id."""
+    before = dict(os.environ)
+    with own_domain() as domain:
+        environment = loopback_environment(domain)
+        os.environ.clear()
+        os.environ.update(environment)
+        try:
+            yield domain
+        finally:
+            os.environ.clear()
+            os.environ.update(before)
+
+
 def loopback_environment(domain: int) -> dict[str, str]:
     """Return the environment of a process that speaks on this domain to this machine only."""
     environment = dict(os.environ)

@@ -9,25 +9,27 @@ Figures are those of each node's own status `Real time`, the last one in its rec
 counted from its activation on. Publishing and recording are as configured, all by default.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass
 import math
-import os
 from pathlib import Path
 import time
 
 from hydra_actuator.errors import Failure
 from hydra_actuator.recording.messages import float64
-from hydra_actuator.recording.reader import load_recording
 from hydra_actuator.ros.child import ChildNode
-from hydra_actuator.ros.domain import loopback_environment, own_domain
+from hydra_actuator.ros.measured import (
+    change_all,
+    ground,
+    last_values,
+    Progress,
+    recording_into,
+)
 from hydra_actuator.ros.reception import Reception
 from lifecycle_msgs.msg import Transition
-from lifecycle_msgs.srv import ChangeState
 import rclpy
 from rclpy.qos import QoSProfile
-from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
@@ -35,10 +37,6 @@ from std_msgs.msg import Float64
 MOST_MISSED = 0.005
 COMMAND_PERIOD = 0.01
 FREQUENCY, AMPLITUDE = 2.0, 0.1
-# The first start on a machine compiles the solver; several starts share its processors.
-PATIENCE = 240.0
-
-Progress = Callable[[float], None]
 
 
 @dataclass(frozen=True)
@@ -73,21 +71,14 @@ def measure_fleets(
     """
     Yield the figures of each node for 1, 2, 4 .. `most` nodes, `duration` [s] each.
 
-    configs: parameter files of all nodes; output: folder of their recordings. Takes this
-    process's ROS environment over. Raises Failure if a node does not come up.
+    configs: parameter files of all nodes; output: folder of their recordings. Meanwhile this
+    process's ROS environment is theirs. Raises Failure if a node does not come up.
     """
     counts = counts_up_to(most)
-    with own_domain() as domain:
-        environment = loopback_environment(domain)
-        os.environ.clear()
-        os.environ.update(environment)
-        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-        try:
-            for done, count in enumerate(counts):
-                yield _Fleet(count, configs, output).measure(
-                    duration, lambda share, done=done: progress((done + share) / len(counts)))
-        finally:
-            rclpy.try_shutdown()
+    with ground():
+        for done, count in enumerate(counts):
+            yield _Fleet(count, configs, output).measure(
+                duration, lambda share, done=done: progress((done + share) / len(counts)))
 
 
 class _Fleet:
@@ -95,28 +86,29 @@ class _Fleet:
 
     def __init__(self, count: int, configs: list[str], output: Path):
         self._names = [f'/of_{count}/number_{k + 1}' for k in range(count)]
-        self._files = [part for path in configs for part in ('--params-file', str(path))]
+        self._configs = configs
         self._output = output
         self._heard = dict.fromkeys(self._names, 0)
         self._errors: list[BaseException] = []
-        self._children: list[ChildNode] = []
 
     def measure(self, duration: float, progress: Progress) -> list[NodeFigures]:
         own = rclpy.create_node('fleet_driver', start_parameter_services=False)
         reception = Reception(own, self._errors.append)
         try:
             with ExitStack() as stack:
-                self._children = [
-                    stack.enter_context(ChildNode(self._arguments(name))) for name in self._names]
-                self._change_all(own, Transition.TRANSITION_CONFIGURE)
+                children = {
+                    f'{name}/actuator': stack.enter_context(ChildNode(self._arguments(name)))
+                    for name in self._names}
+                change_all(own, children, Transition.TRANSITION_CONFIGURE)
                 publishers = self._join(own, reception)
                 reception.start()
-                self._change_all(own, Transition.TRANSITION_ACTIVATE)
-                shares = self._drive(publishers, duration, progress)
-                for child in self._children:
+                change_all(own, children, Transition.TRANSITION_ACTIVATE)
+                nodes = list(children.values())
+                shares = self._drive(nodes, publishers, duration, progress)
+                for child in nodes:
                     child.interrupt()
-                codes = [child.stop() for child in self._children]
-                recordings = [child.recording for child in self._children]
+                codes = [child.stop() for child in nodes]
+                recordings = [child.recording for child in nodes]
         finally:
             reception.destroy()
             own.destroy_node()
@@ -126,10 +118,7 @@ class _Fleet:
                 for path, share, name in zip(recordings, shares, self._names)]
 
     def _arguments(self, namespace: str) -> list[str]:
-        return [
-            *self._files, '-r', f'__ns:={namespace}', '-p', 'autostart:=false',
-            '-p', 'recording.enabled:=true',
-            '-p', f'recording.directory:="{self._output.absolute()}"']
+        return ['-r', f'__ns:={namespace}', *recording_into(self._output, self._configs)]
 
     def _join(self, own, reception: Reception) -> list:
         """Listen to all joint states; return the publishers of commands."""
@@ -146,28 +135,11 @@ class _Fleet:
             own.create_publisher(Float64, f'{name}/actuator/spool_command', QoSProfile(depth=1))
             for name in self._names]
 
-    def _change_all(self, own, transition: int) -> None:
-        """Have all nodes make a transition at once."""
-        clients = [own.create_client(ChangeState, f'{name}/actuator/change_state')
-                   for name in self._names]
-        deadline = time.monotonic() + PATIENCE
-        self._wait_for(lambda: all(one.service_is_ready() for one in clients), deadline)
-        request = ChangeState.Request(transition=Transition(id=transition))
-        futures = [client.call_async(request) for client in clients]
-        for future in futures:
-            def answered(future=future):
-                rclpy.spin_once(own, timeout_sec=0.02)
-                return future.done()
-            self._wait_for(answered, deadline)
-        for child, future in zip(self._children, futures):
-            if not future.result().success:
-                raise Failure(f'a node refused transition {transition}; {child.last_line}')
-        for client in clients:
-            own.destroy_client(client)
-
-    def _drive(self, publishers: list, duration: float, progress: Progress) -> list[float]:
+    def _drive(
+        self, children: list[ChildNode], publishers: list, duration: float, progress: Progress
+    ) -> list[float]:
         """Command all nodes for a while; return the share of a core each of them took."""
-        before = [child.processor_time for child in self._children]
+        before = [child.processor_time for child in children]
         begin = time.monotonic()
         sent = 0
         while (elapsed := time.monotonic() - begin) < duration:
@@ -176,30 +148,17 @@ class _Fleet:
                 publisher.publish(command)
             sent += 1
             progress(elapsed / duration)
-            for child in self._children:
+            for child in children:
                 child.check()
             time.sleep(max(0.0, begin + sent * COMMAND_PERIOD - time.monotonic()))
         elapsed = time.monotonic() - begin
         return [(child.processor_time - start) / elapsed
-                for child, start in zip(self._children, before)]
-
-    def _wait_for(self, reached: Callable[[], bool], deadline: float) -> None:
-        while not reached():
-            for child in self._children:
-                child.check()
-            if time.monotonic() > deadline:
-                raise Failure(f'{len(self._names)} nodes were not up within {PATIENCE:.0f} s; '
-                              f'{self._children[-1].last_line}')
-            time.sleep(0.02)
+                for child, start in zip(children, before)]
 
 
 def _figures(path: Path, share: float, heard: int) -> NodeFigures:
     """Read what a node has counted from the last status in its recording."""
-    values: dict[str, str] = {}
-    for message in load_recording(path).messages('/diagnostics'):
-        for status in message['status']:
-            if status['name'].endswith(': Real time') and status['values']:
-                values = {one['key']: one['value'] for one in status['values']}
+    values = last_values(path, 'Real time')
     if not values or not int(values['ticks']):
         raise Failure(f'{path} holds no ticks')
     ticks, factor = int(values['ticks']), float(values['real_time_factor'])

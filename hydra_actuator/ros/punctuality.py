@@ -7,34 +7,33 @@ deadlines: the machine's own lateness in the same seconds. A node's figures are 
 status `Real time`, counted by itself from its activation on.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, ExitStack
 from dataclasses import dataclass
-import os
 from pathlib import Path
 import time
 
 from hydra_actuator.errors import Failure
 from hydra_actuator.pacer import DurationHistogram
 from hydra_actuator.parameters import Parameters
-from hydra_actuator.recording.reader import load_recording
 from hydra_actuator.ros.child import ChildNode
-from hydra_actuator.ros.domain import loopback_environment, own_domain
 from hydra_actuator.ros.loads import busy_core, Flood, sleeper, Steps
+from hydra_actuator.ros.measured import (
+    change_all,
+    ground,
+    last_values,
+    PATIENCE,
+    Progress,
+    recording_into,
+)
 from lifecycle_msgs.msg import Transition
-from lifecycle_msgs.srv import ChangeState
 import rclpy
 from rclpy.node import Node
-from rclpy.signals import SignalHandlerOptions
 
 PERCENTILES = (50.0, 99.0, 99.9)
 FLOODED, FLOODED_APART = 'node, 10 kHz of commands', 'the same, solver in a process'
 STEPPED, STEPPED_APART = 'node, a command each 13.7 ms', 'the same, solver in a process'
 NODE, APART = ('hydra_actuator', 'node'), ('hydra_actuator.ros.apart',)
-# The first start on a machine compiles the solver.
-PATIENCE = 240.0
-
-Progress = Callable[[float], None]
 
 
 @dataclass(frozen=True)
@@ -71,22 +70,15 @@ def measure(
     Yield the cases, `duration` [s] each.
 
     configs: parameter files of the nodes, which give `parameters`; output: folder of their
-    recordings. Takes this process's ROS environment over. Raises Failure if a node fails.
+    recordings. Meanwhile this process's ROS environment is theirs. Raises Failure if a node fails.
     """
     cases = (_alone, _idle, _flooded, _flooded_apart, _beside_a_busy_core,
              _stepped, _stepped_apart)
-    with own_domain() as domain:
-        environment = loopback_environment(domain)
-        os.environ.clear()
-        os.environ.update(environment)
-        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-        try:
-            bench = _Bench(duration, configs, parameters, output)
-            for done, case in enumerate(cases):
-                bench.progress = lambda share, done=done: progress((done + share) / len(cases))
-                yield case(bench)
-        finally:
-            rclpy.try_shutdown()
+    with ground():
+        bench = _Bench(duration, configs, parameters, output)
+        for done, case in enumerate(cases):
+            bench.progress = lambda share, done=done: progress((done + share) / len(cases))
+            yield case(bench)
 
 
 def lines(case: Case) -> list[str]:
@@ -164,8 +156,7 @@ class _Bench:
         self.duration = duration
         self.parameters = parameters
         self.progress: Progress = lambda share: None
-        self._files = [part for path in configs for part in ('--params-file', str(path))]
-        self._output = output
+        self._arguments = recording_into(output, configs)
 
     def wait(self) -> None:
         """Let the case go on for its time."""
@@ -179,15 +170,12 @@ class _Bench:
         """Run a node that is active, and a sleeper; leave it when it has ended."""
         driver = rclpy.create_node('bench_driver', start_parameter_services=False)
         run = _Run(driver)
-        arguments = [
-            *self._files, '-p', 'autostart:=false', '-p', 'recording.enabled:=true',
-            '-p', f'recording.directory:="{self._output.absolute()}"']
         try:
             with ExitStack() as stack:
-                child = stack.enter_context(ChildNode(arguments, command))
-                _change(driver, child, Transition.TRANSITION_CONFIGURE)
+                child = stack.enter_context(ChildNode(self._arguments, command))
+                change_all(driver, {'/actuator': child}, Transition.TRANSITION_CONFIGURE)
                 run.queue = stack.enter_context(sleeper(self.parameters))
-                _change(driver, child, Transition.TRANSITION_ACTIVATE)
+                change_all(driver, {'/actuator': child}, Transition.TRANSITION_ACTIVATE)
                 yield run
                 child.check()
                 code = child.stop()
@@ -208,12 +196,7 @@ class _Run:
 
     def values(self, part: str) -> dict[str, str]:
         """Return the last values of a status."""
-        values: dict[str, str] = {}
-        for message in load_recording(self.recording).messages('/diagnostics'):
-            for status in message['status']:
-                if status['name'] == f'/actuator: {part}':
-                    values = {one['key']: one['value'] for one in status['values']}
-        return values
+        return last_values(self.recording, part)
 
     def case(
         self, name: str, latency: DurationHistogram | None = None, remark: str = ''
@@ -233,23 +216,3 @@ def _of_sleeper(queue) -> Lateness:
     return Lateness(
         tuple(lateness.percentile(percent) / 1e3 for percent in PERCENTILES),
         lateness.maximum / 1e3, ticks, missed)
-
-
-def _change(driver: Node, child: ChildNode, transition: int) -> None:
-    """Have a node make a transition; Failure if it does not."""
-    client = driver.create_client(ChangeState, '/actuator/change_state')
-    deadline = time.monotonic() + PATIENCE
-    while not client.service_is_ready():
-        child.check()
-        if time.monotonic() > deadline:
-            raise Failure(f'the node did not come up; {child.last_line}')
-        time.sleep(0.02)
-    future = client.call_async(ChangeState.Request(transition=Transition(id=transition)))
-    while not future.done():
-        child.check()
-        if time.monotonic() > deadline:
-            raise Failure(f'the node did not answer; {child.last_line}')
-        rclpy.spin_once(driver, timeout_sec=0.05)
-    driver.destroy_client(client)
-    if not future.result().success:
-        raise Failure(f'the node refused transition {transition}; {child.last_line}')

@@ -11,16 +11,15 @@ While it is open, this process's environment is that of the domain: contexts tha
 meanwhile find the nodes.
 """
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, ExitStack
-import os
+from collections.abc import Mapping
+from contextlib import ExitStack
 from pathlib import Path
 
 from hydra_actuator.errors import Failure, InputError
 from hydra_actuator.parameters import load_parameters
 from hydra_actuator.ros.child import ChildNode
 from hydra_actuator.ros.client import LockstepClient
-from hydra_actuator.ros.domain import loopback_environment, own_domain
+from hydra_actuator.ros.domain import alone
 import rclpy
 from rclpy.context import Context
 
@@ -43,8 +42,7 @@ class Testbed:
         self._context: Context | None = None
 
     def __enter__(self) -> 'Testbed':
-        self.domain = self._stack.enter_context(own_domain())
-        self._stack.enter_context(_environment(loopback_environment(self.domain)))
+        self.domain = self._stack.enter_context(alone())
         return self
 
     def __exit__(self, *_) -> None:
@@ -101,16 +99,3 @@ class Testbed:
         self._stack.callback(node.destroy_node)
         return self._stack.enter_context(
             LockstepClient(node, f'{namespace}/actuator', ANSWER_PATIENCE))
-
-
-@contextmanager
-def _environment(environment: dict[str, str]) -> Iterator[None]:
-    """Have this process's environment be another one."""
-    before = dict(os.environ)
-    os.environ.clear()
-    os.environ.update(environment)
-    try:
-        yield
-    finally:
-        os.environ.clear()
-        os.environ.update(before)

@@ -166,15 +166,9 @@ def test_the_queue_loses_and_counts_only_what_a_failing_disk_costs(tmp_path, mon
 
 
 @pytest.fixture
-def small_disk(tmp_path):
-    """Give a tmpfs of 4 MB, where this process may mount one."""
-    place = tmp_path / 'disk'
-    place.mkdir()
-    command = ['mount', '-t', 'tmpfs', '-o', 'size=4m', 'tmpfs', str(place)]
-    if shutil.which('mount') is None or subprocess.run(command, capture_output=True).returncode:
-        pytest.skip('a file system cannot be mounted here')
-    yield place
-    subprocess.run(['umount', '-l', str(place)], check=True)
+def small_disk(make_disk):
+    """Give a file system of 4 MB."""
+    return make_disk(4)
 
 
 def test_a_full_disk_costs_nothing_already_written_and_recording_goes_on(small_disk, tmp_path):

@@ -3,8 +3,6 @@
 
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-import shutil
-import subprocess
 
 from diagnostic_msgs.msg import DiagnosticArray
 from hydra_actuator.parameters import load_parameters
@@ -22,15 +20,9 @@ LEVELS = {b'\x00': 'ok', b'\x01': 'warn', b'\x02': 'error'}
 
 
 @pytest.fixture
-def small_disk(tmp_path):
-    """Give a tmpfs of 16 MB, where this process may mount one."""
-    place = tmp_path / 'disk'
-    place.mkdir()
-    command = ['mount', '-t', 'tmpfs', '-o', 'size=16m', 'tmpfs', str(place)]
-    if shutil.which('mount') is None or subprocess.run(command, capture_output=True).returncode:
-        pytest.skip('a file system cannot be mounted here')
-    yield place
-    subprocess.run(['umount', '-l', str(place)], check=True)
+def small_disk(make_disk):
+    """Give a file system of 16 MB."""
+    return make_disk(16)
 
 
 def recorder_status(heard):
