@@ -24,6 +24,7 @@ Nothing in here imports rclpy; it knows the channels of the actuator, not its ph
     reader       a recording as arrays over time
     labelled     a recording as xarray datasets with units
     export       a recording as CSV, Parquet or NetCDF
+    chunks       the chunks of a file that may be damaged
     salvage      what is sound in one file, damaged or not
     proof        its topics and custom data, as far as they can be proved
     recovery     a new recording made of what is sound

@@ -14,6 +14,7 @@ from io import BytesIO
 import struct
 import zlib
 
+from hydra_actuator.recording.chunks import chunk_records
 from hydra_actuator.recording.definitions import definition, type_hashes
 from hydra_actuator.recording.opening import (
     CHECKSUMS,
@@ -22,7 +23,7 @@ from hydra_actuator.recording.opening import (
     encoded,
     parts_before,
 )
-from hydra_actuator.recording.salvage import chunk_records, Salvage
+from hydra_actuator.recording.salvage import Salvage
 from hydra_actuator.recording.scan import RECORD_HEAD, records
 from hydra_actuator.recording.topics import Topic
 from mcap.data_stream import ReadDataStream

@@ -15,17 +15,11 @@ from pathlib import Path
 
 from hydra_actuator.errors import Failure
 from hydra_actuator.interruption import Interruption
+from hydra_actuator.recording.chunks import chunk_messages, chunk_records, mapped
 from hydra_actuator.recording.errors import RecordingError
 from hydra_actuator.recording.metadata import mcap_files, read_metadata
 from hydra_actuator.recording.proof import Proof, prove
-from hydra_actuator.recording.salvage import (
-    chunk_messages,
-    chunk_records,
-    Damage,
-    mapped,
-    Salvage,
-    salvage,
-)
+from hydra_actuator.recording.salvage import Damage, Salvage, salvage
 from hydra_actuator.recording.segment import Message
 from hydra_actuator.recording.writer import RecordingWriter
 import numpy as np

@@ -44,7 +44,7 @@ class ActuatorNode(LifecycleNode):
         self.door = ParameterDoor(self)
         self.door.is_active = lambda: self._active
         self.door.on_change = self._change
-        self.door.further_check = lambda changes: self.rig and self.rig.check(changes)
+        self.door.further_check = lambda changes: self.rig and self.rig.faults.check(changes)
         self._reports = Reports(self)
         services = Services(self, lambda: self.rig, self._reports)
         services.is_active = lambda: self._active

@@ -9,13 +9,11 @@ What a configured node has: actuator, plant, topics, recording; made whole, take
                   +---------------------> Recorder <--------------------+
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 import gc
 import time
 
 from hydra_actuator.actuator import Actuator
-from hydra_actuator.faults.announcements import Announcer, NAME
-from hydra_actuator.faults.faults import Change
 from hydra_actuator.instruments import Instruments
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.recording.errors import RecordingError
@@ -30,6 +28,7 @@ from hydra_actuator.ros.outputs import Outputs
 from hydra_actuator.ros.plant import Plant
 from hydra_actuator.ros.publishing import Publishers
 from hydra_actuator.ros.recorder import Recorder
+from hydra_actuator.ros.rig_faults import RigFaults
 from hydra_actuator.ros.ring import Ring
 from hydra_actuator.ros.scheduling import lock_memory, prepare_thread
 from hydra_actuator.ros.setpoint import Setpoint
@@ -62,7 +61,6 @@ class Rig:
         self._node = node
         self._reports = reports
         self._on_failure = on_failure
-        self._announcer = Announcer()
         self.actuator = Actuator(parameters)
         self._build_plant()
         # A full collection would stop all threads for tens of milliseconds. What is made from
@@ -144,26 +142,19 @@ class Rig:
         self.recorder.open()
         self.outputs.forget_inputs()
 
-    def check(self, changes: dict[str, object]) -> None:
-        """Raise InputError if changes of live parameters, sound by themselves, cannot act now."""
-        self._checked_faults(changes)
-
     def change(self, changes: dict[str, object]) -> None:
         """Take live parameters, all between the same two ticks, and record that they changed."""
         self.parameters = new = self.parameters.replace(changes)
         rules = CommandRules.of(new)
         encoder = self.outputs.encoder_for(_joint_names(new))
-        fault = self._checked_faults(changes)
+        fault = self.faults.check(changes)
 
         def apply() -> None:
             self.desk.rules = rules
             self.setpoint.set_timeout(self._timeout(new), new['command.on_timeout'])
             self.outputs.encoder = encoder
             self.actuator.supply.pressure = new['supply.pressure']
-            if fault is not None:
-                self.actuator.take_faults(fault)
-            if fault is not None or any(name.startswith('sensor.') for name in changes):
-                self._set_instruments(self.plant.rows)
+            self.faults.take(fault, changes)
 
         self.plant.order(apply)
         now = time.time_ns()
@@ -172,17 +163,6 @@ class Rig:
         data = parameter_event(stamp, self._node.get_fully_qualified_name(), [
             (name, table[name].type, new[name]) for name in changes])
         self.recorder.put(self.topics.parameter_events, stamp, now, data)
-
-    def _checked_faults(self, changes: dict[str, object]) -> Change | None:
-        """Return the change of faults among changes; those of other sections are for later."""
-        known = self.parameters.table
-        faults = {name: value for name, value in changes.items()
-                  if name.startswith('fault.') and name in known}
-        return self.actuator.faults.check(faults) if faults else None
-
-    def clear_faults(self) -> bool:
-        """End all faults and the script; False if the plant did not get round to it."""
-        return self.plant.order(self.actuator.clear_faults)
 
     def close(self) -> bool:
         """Stop, end the recording, give up all topics; False if the recording is incomplete."""
@@ -227,22 +207,13 @@ class Rig:
         self.outputs.encoder = self.outputs.encoder_for(_joint_names(self.parameters))
         self.outputs.on_error = lambda error: self._fail(f'publishing: {error!r}')
         self.outputs.on_restart = self._record_anew
-        self.outputs.on_faults = self._announce
         # What holds stands in each new file and each snapshot as well.
         self.recorder.restate = self.outputs.forget_inputs
         self.recorder.on_event = self._reports.event
-        self.plant.on_faults = self._set_instruments
+        self.faults = RigFaults(
+            self.actuator, self.plant, self.outputs, self._reports.event,
+            lambda: self.parameters)
         self.outputs.after_batch = Watch(self._reports.event, self._vitals.watched()).look
-
-    def _set_instruments(self, number: int) -> None:
-        """Have rows from that number on be read as sensors and faults are now."""
-        faults = self.actuator.faults
-        self.outputs.set_instruments(number, self.parameters, faults.active, faults.enabled)
-
-    def _announce(self, active: Mapping[str, object]) -> None:
-        """Send an event for each fault that has begun, changed or ended."""
-        for level, message, values in self._announcer.news(active):
-            self._reports.event(level, NAME, message, values)
 
     def _open_recording(self) -> None:
         self.recorder = Recorder(
@@ -263,8 +234,7 @@ class Rig:
             self.recorder.begin_anew()
         except RecordingError as error:
             self._reports.event(ERROR, 'Recorder', f'no new recording: {error}')
-        self._announcer = Announcer()
-        self._announce(self.actuator.faults.active)
+        self.faults.announce_anew()
 
     def _timeout(self, parameters: Parameters) -> float:
         """Return the silence that counts: where each command is a tick, there is none."""

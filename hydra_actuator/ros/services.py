@@ -111,7 +111,7 @@ class Services:
 
     def _clear_faults(self) -> tuple[bool, str]:
         rig = self._rig()
-        if rig is not None and not rig.clear_faults():
+        if rig is not None and not rig.faults.clear():
             return False, 'the solver did not get round to it'
         self.forget_faults()
         return True, 'no faults, no script'
