@@ -36,14 +36,15 @@ setup(
     extras_require={
         'test': [
             'control', 'hypothesis', 'imageio-ffmpeg', 'matplotlib', 'mcap-ros2-support',
-            'netCDF4', 'pandas', 'plotly', 'pyarrow', 'pytest', 'rosbags', 'ruff', 'scipy',
-            'xarray',
+            'netCDF4', 'pandas', 'plotly', 'pyarrow', 'pytest', 'rich', 'rosbags', 'ruff',
+            'scipy', 'xarray',
         ],
         'ros': [
             'ros-jazzy-rclpy', 'ros-jazzy-common-interfaces', 'ros-jazzy-rmw-fastrtps-cpp',
         ],
         'report': ['matplotlib', 'plotly', 'scipy'],
         'animate': ['imageio-ffmpeg', 'matplotlib', 'pillow'],
+        'watch': ['rich'],
         'export': ['netCDF4', 'pandas', 'pyarrow', 'xarray'],
         'response': ['control>=0.10', 'matplotlib', 'scipy'],
     },

@@ -24,6 +24,7 @@ VERBS = {
     'report': 'one self-contained page about a recording',
     'plot': 'one figure of a recording as PNG, SVG or PDF',
     'animate': 'the actuator in motion, oil coloured by pressure, as GIF, MP4 or HTML',
+    'watch': 'a live view of a running node in the terminal',
     'info': 'what a recording holds',
     'export': 'a recording as CSV, Parquet or NetCDF, with units',
     'recover': 'salvage of an unfinished or damaged recording',
