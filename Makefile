@@ -49,7 +49,7 @@ venv: .venv/installed
 	@echo 'make: installing ROS 2 and all else into .venv, a minute or two'
 	@rm -rf .venv
 	@$(PYTHON) -m venv .venv
-	@$(BIN)/python -m pip install --quiet --use-pep517 -c constraints.txt -e '.[test,ros,report,response,export]'
+	@$(BIN)/python -m pip install --quiet --use-pep517 -c constraints.txt -e '.[test,ros,report,response,export,sweep]'
 	@touch $@
 
 clean:

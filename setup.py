@@ -35,9 +35,9 @@ setup(
     ],
     extras_require={
         'test': [
-            'control', 'hypothesis', 'imageio-ffmpeg', 'matplotlib', 'mcap-ros2-support',
-            'netCDF4', 'pandas', 'plotly', 'pyarrow', 'pytest', 'rich', 'rosbags', 'ruff',
-            'scipy', 'xarray',
+            'control', 'dask[distributed]', 'hypothesis', 'imageio-ffmpeg', 'matplotlib',
+            'mcap-ros2-support', 'netCDF4', 'pandas', 'plotly', 'pyarrow', 'pytest', 'rich',
+            'rosbags', 'ruff', 'SALib', 'scipy', 'xarray',
         ],
         'ros': [
             'ros-jazzy-rclpy', 'ros-jazzy-common-interfaces', 'ros-jazzy-rmw-fastrtps-cpp',
@@ -47,6 +47,10 @@ setup(
         'watch': ['rich'],
         'export': ['netCDF4', 'pandas', 'pyarrow', 'xarray'],
         'response': ['control>=0.10', 'matplotlib', 'scipy'],
+        'sweep': [
+            'dask[distributed]>=2024.5', 'netCDF4', 'pandas', 'plotly', 'pyarrow', 'SALib>=1.5',
+            'scipy', 'xarray',
+        ],
     },
     zip_safe=False,
     entry_points={

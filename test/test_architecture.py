@@ -54,6 +54,11 @@ ROOMS = {
          'parameters', 'analysis'},
         {'numpy', 'scipy', 'control', 'matplotlib'},
     ),
+    'sweep': (
+        {'sweep', 'actuator', 'kernels', 'signals', 'interruption', 'parameters', 'response',
+         'analysis'},
+        {'numpy', 'scipy', 'dask', 'distributed', 'pyarrow', 'xarray', 'SALib'},
+    ),
     'testing': ({'testing', 'actuator', 'parameters', 'ros'}, {'numpy', 'pytest'}),
     'ros': None,
     'cli': None,

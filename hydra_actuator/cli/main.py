@@ -21,7 +21,7 @@ VERBS = {
     'node': 'the actuator as a ROS 2 node; takes --ros-args',
     'demo': 'the node in real time, driven over DDS, recorded and reported',
     'simulate': 'an offline run, as fast as possible, into a recording',
-    'report': 'one self-contained page about a recording',
+    'report': 'one self-contained page about a recording, or a sweep',
     'plot': 'one figure of a recording as PNG, SVG or PDF',
     'animate': 'the actuator in motion, oil coloured by pressure, as GIF, MP4 or HTML',
     'watch': 'a live view of a running node in the terminal',
@@ -31,6 +31,7 @@ VERBS = {
     'paper': 'every figure of the paper, and its statements beside our numbers',
     'verify': 'the solver against exact solutions and conservation laws',
     'response': 'frequency response about an operating point, null curves of the valve',
+    'sweep': 'many simulations over parameters, on Dask: local, or a cluster',
     'bench': 'speed of the solver',
 }
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from hydra_actuator.cli.plot import add_units, units_of
 
-SUMMARY = 'one self-contained page about a recording'
+SUMMARY = 'one self-contained page about a recording, or a sweep'
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
