@@ -25,7 +25,7 @@ ROS = {'rclpy', 'rosgraph_msgs', 'std_msgs', 'sensor_msgs', 'diagnostic_msgs', '
 # A room is a folder or a file of the package; `errors` and `channels` are open to all but core.
 COMMON = {'errors', 'channels'}
 ROOMS = {
-    'core': ({'core'}, {'numpy', 'numba'}),
+    'core': ({'core'}, {'numpy', 'numba', 'llvmlite'}),
     'channels': (set(), {'numpy'}),
     'errors': (set(), set()),
     'parameters': ({'parameters'}, {'numpy', 'yaml'}),
@@ -130,8 +130,8 @@ def test_arrows_point_one_way(path):
 @pytest.mark.parametrize('path', sorted((PACKAGE / 'core').rglob('*.py')), ids=label)
 def test_core_imports_only_numpy_numba_math_and_core(path):
     roots = {name.split('.')[0] for name in imported(path)}
-    assert roots <= {'numpy', 'numba', 'math', 'collections', 'dataclasses', 'typing',
-                     'hydra_actuator'}
+    assert roots <= {'numpy', 'numba', 'llvmlite', 'math', 'collections', 'dataclasses',
+                     'hashlib', 'typing', 'hydra_actuator'}
 
 
 @pytest.mark.parametrize('path', WITHOUT_ROS, ids=label)

@@ -9,7 +9,6 @@ the step time, so any split of the steps gives the same bits.
 from hydra_actuator.core.boiling import count_cavities, note_lowest
 from hydra_actuator.core.compilation import formula, kernel
 from hydra_actuator.core.observe import find_limits, runs_away, SOUND
-from hydra_actuator.core.records import flip
 from hydra_actuator.core.step import step
 
 # Steps between two looks at the limits: oil that is too fast is named as such before it grows
@@ -47,12 +46,12 @@ def advance(model, state, passes, schedule, inputs, count, check_interval):
     """
     times, table, hold = schedule
     cursor, code = 0, SOUND
-    now, other = state, flip(state)
+    now, began = state, state.step[0]
     for _ in range(count):
         time = (state.step[0] + 1) * model.step_time
         cursor = read_inputs(times, table, hold, cursor, time, inputs)
         step(model, now, inputs, passes)
-        now, other = other, now
+        now = now.exchanged
         if len(model.extras) > 0 and model.gas == 1:
             note_lowest(model, now)
             if state.step[0] % check_interval == 0:
@@ -62,7 +61,7 @@ def advance(model, state, passes, schedule, inputs, count, check_interval):
             code, _ = find_limits(model, now)
             if code != SOUND:
                 break
-    if now.wave_p is not state.wave_p:
+    if (state.step[0] - began) % 2 == 1:
         keep_level(state)
     if code == SOUND:
         code, _ = find_limits(model, state)

@@ -6,6 +6,8 @@ The gas appears, or goes, at the pressure that there is: no pressure and no velo
 oil only becomes softer or stiffer.
 """
 
+from dataclasses import replace
+
 from hydra_actuator.core.cavity import face_strength
 from hydra_actuator.core.line import GHOSTS, GHOSTS_BEYOND_FACE
 from hydra_actuator.core.oil import gas_constants, Oil
@@ -35,13 +37,13 @@ def set_gas(model: Model, state: State, air_fraction: float) -> Model:
     for d in range(len(model.start)):
         place_gas(model, state, d)
     if air_fraction > 0.0:
-        return model._replace(gas=1, extras=(1,))
+        return replace(model, gas=1, extras=(1,))
     counts = state.cavities
     counts['collapsed'] += counts['open']
     counts['open'] = 0
     state.was_open[:] = 0
     state.lowest_star[:] = np.inf
-    return model._replace(gas=0, extras=(1,) if model.tabled else ())
+    return replace(model, gas=0, extras=(1,) if model.tabled else ())
 
 
 def place_gas(model: Model, state: State, d: int) -> None:

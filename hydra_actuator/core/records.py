@@ -8,9 +8,9 @@ chamber is always seen from its fixed end towards the piston, so the second cham
 Outflow velocities are positive out of the domain, whichever end.
 """
 
-from typing import NamedTuple
+from dataclasses import dataclass, replace
 
-from hydra_actuator.core.compilation import formula
+from hydra_actuator.core.handle import Handle
 import numpy as np
 
 CLOSED, PRESSURE, FLOW, PUMP, ORIFICE, VALVE, PISTON, WALL = range(8)
@@ -53,7 +53,8 @@ CAVITY_COUNTS = np.dtype([
     align=True)
 
 
-class Model(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Model(Handle):
     """
     Constants of a chain; shapes: D domains, N nodes with ghosts, J junctions.
 
@@ -102,7 +103,8 @@ class Model(NamedTuple):
     source: np.ndarray          # (1,) SOURCE_PARAMETERS
 
 
-class State(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class State(Handle):
     """What a step changes."""
 
     wave_p: np.ndarray          # (N,) mu + u [m/s], u away from node 0
@@ -144,18 +146,12 @@ class State(NamedTuple):
     oil_stored: np.ndarray      # (2,) accumulator: now, next [m^3]
     step: np.ndarray            # (1,) int64 steps done
     fault: np.ndarray           # (3,) status: code, domain, value
+    exchanged: 'State | None' = None  # the same with the two levels of the waves exchanged
 
-
-@formula
-def flip(state):
-    """Return the same state with the two levels of the waves exchanged: no array is copied."""
-    return State(
-        state.new_p, state.new_q, state.wave_p, state.wave_q,
-        state.last, state.length, state.old_length, state.old_velocity, state.end_wave,
-        state.end_velocity, state.end_velocity_before, state.end_theta, state.face_p,
-        state.face_q, state.theta_p, state.theta_q, state.drag, state.new_drag, state.memory,
-        state.fading, state.change, state.velocity, state.place, state.damping,
-        state.star, state.end_star, state.strength, state.face_held, state.lowest_star,
-        state.was_open, state.cavities, state.spool,
-        state.edge_coefficient, state.valve_velocity, state.ring, state.piston,
-        state.oil_stored, state.step, state.fault)
+    def __post_init__(self) -> None:
+        """Let kernels see both readings of the waves: no array is copied."""
+        super().__post_init__()
+        if self.exchanged is None:
+            self._tie('exchanged', replace(
+                self, wave_p=self.new_p, wave_q=self.new_q, new_p=self.wave_p, new_q=self.wave_q,
+                exchanged=self))
