@@ -36,8 +36,8 @@ setup(
     extras_require={
         'test': [
             'control', 'dask[distributed]', 'hypothesis', 'imageio-ffmpeg', 'matplotlib',
-            'mcap-ros2-support', 'netCDF4', 'pandas', 'plotly', 'pyarrow', 'pytest', 'rich',
-            'rosbags', 'ruff', 'SALib', 'scipy', 'xarray',
+            'mcap-ros2-support', 'netCDF4', 'pandas', 'playwright', 'plotly', 'pyarrow', 'pytest',
+            'rich', 'rosbags', 'ruff', 'SALib', 'scipy', 'xarray',
         ],
         'ros': [
             'ros-jazzy-rclpy', 'ros-jazzy-common-interfaces', 'ros-jazzy-rmw-fastrtps-cpp',

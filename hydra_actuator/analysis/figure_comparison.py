@@ -50,7 +50,7 @@ def beside(series: Series, other: Series, shown: Window, units: Units = SI) -> F
         'comparison', f'{series.name} and {other.name}',
         f'Difference: {series.name} less {other.name}, times from the first record of each.',
         first.traces + second.traces, over_time(titles, shown, units),
-        height=100 + 120 * len(titles), linked=True)
+        height=100 + 150 * len(titles), linked=True)
 
 
 def difference(time: np.ndarray, mine: np.ndarray, times: np.ndarray,
@@ -93,7 +93,7 @@ def _on_grid(series: Series, field: Field | None, shown: Window,
     """Return times [s], places [m] and values (frames, places) of a run in a window."""
     if field is None:
         return None
-    part = thinned(field.between(shown.start, shown.end), MAP_FRAMES)
+    part = thinned(field.having(quantity).between(shown.start, shown.end), MAP_FRAMES)
     if len(part.time) < 2:
         return None
     grid = np.linspace(field.positions.min(), field.positions.max(), COLUMNS)

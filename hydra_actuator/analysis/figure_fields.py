@@ -29,11 +29,20 @@ def thinned(field: Field, frames: int) -> Field:
     )
 
 
+def _unseen(key: str, title: str, quantity: str) -> Figure:
+    """Return the place of a figure for which there are too few frames."""
+    return Figure.absent(
+        key, title, f'the {quantity} was recorded at fewer than two instants of the part shown')
+
+
 def surface(series: Series, field: Field, shown: Window, quantity: str,
             units: Units = SI) -> Figure:
     """Return the surface of 'pressure' or 'velocity' over streamline and time."""
     scale: Scale = getattr(units, quantity)
+    key, title = f'surface_{quantity}', f'{quantity.capitalize()} over streamline and time'
     part = thinned(field.between(shown.start, shown.end), SURFACE_FRAMES)
+    if len(part.time) < 2:
+        return _unseen(key, title, quantity)
     piston = np.interp(part.time, series.time, series.position)
     values = scale(streamline.gapless(part, getattr(part, quantity)))
     moment, label = units.since(shown.start)
@@ -53,7 +62,7 @@ def surface(series: Series, field: Field, shown: Window, quantity: str,
     }
     scene = {
         'aspectmode': 'manual', 'aspectratio': {'x': 1.5, 'y': 1.2, 'z': 0.75},
-        'camera': {'eye': {'x': 1.25, 'y': -1.82, 'z': 0.9}, 'center': {'x': -0.03, 'z': -0.13}},
+        'camera': {'eye': {'x': 1.38, 'y': -2.02, 'z': 1.0}, 'center': {'x': -0.03, 'z': -0.13}},
         'xaxis': {'title': {'text': 'x: pump to tank'},
                   'tickvals': [float(units.place(x)) for x, _ in ends],
                   'ticktext': [letters for _, letters in ends]},
@@ -61,8 +70,7 @@ def surface(series: Series, field: Field, shown: Window, quantity: str,
         'zaxis': {'title': {'text': scale.unit or scale.symbol}},
     }
     return Figure(
-        f'surface_{quantity}', f'{quantity.capitalize()} over streamline and time',
-        f'{span(shown)}, from {origin(part)}. Drag to turn, double-click to reset.',
+        key, title, f'{span(shown)}, from {origin(part)}. Drag to turn, double-click to reset.',
         [trace], {'scene': scene}, height=480, wide=False,
     )
 
@@ -76,7 +84,10 @@ def wave_map(series: Series, field: Field, shown: Window, quantity: str,
     which waves stand out; `waves` shows the second one first.
     """
     scale: Scale = getattr(units, quantity)
+    key, title = f'map_{quantity}', f'{quantity.capitalize()}: x-t map'
     part = thinned(field.between(shown.start, shown.end), MAP_FRAMES)
+    if len(part.time) < 2:
+        return _unseen(key, title, quantity)
     x = streamline.node_positions(part, np.interp(part.time, series.time, series.position))
     grid = np.linspace(field.positions.min(), field.positions.max(), COLUMNS)
     values = scale(streamline.on_even_grid(
@@ -100,8 +111,7 @@ def wave_map(series: Series, field: Field, shown: Window, quantity: str,
             'hoverinfo': 'skip', 'showlegend': False,
         })
     return Figure(
-        f'map_{quantity}', f'{quantity.capitalize()}: x-t map',
-        f'{span(shown)}, from {origin(part)}. Dotted: the piston.',
+        key, title, f'{span(shown)}, from {origin(part)}. Dotted: the piston.',
         traces, layout, height=520, wide=False,
     )
 
@@ -133,7 +143,8 @@ def whole_run_map(field: Field, quantity: str, buckets: int = WHOLE_RUN_ROWS,
 
 def _bar(unit: str) -> dict:
     """Return the colour bar of a map or a surface."""
-    return {'title': {'text': unit}, 'thickness': 12, 'len': 0.8, 'outlinewidth': 0}
+    return {'title': {'text': unit}, 'thickness': 12, 'len': 0.8, 'outlinewidth': 0,
+            'exponentformat': 'power'}
 
 
 def _shared_range(maps: list[np.ndarray], quantity: str) -> dict:
@@ -208,5 +219,8 @@ def span(shown: Window) -> str:
 
 def origin(field: Field) -> str:
     """Return where the frames come from and how dense they are, in words."""
-    rate = f' at {1 / field.interval:.6g} Hz' if np.isfinite(field.interval) else ''
+    if not np.isfinite(field.interval):
+        return field.source
+    frequency = 1.0 / field.interval
+    rate = f' at {frequency:.0f} Hz' if frequency >= 100.0 else f' at {frequency:.4g} Hz'
     return f'{field.source}{rate}'

@@ -32,6 +32,8 @@ def net(series: Series, field: Field, shown: Window, units: Units = SI) -> Figur
     """
     if not series.parameters:
         return Figure.absent(KEY, TITLE, 'the recording holds no parameters, thus no wave speed')
+    if len(field.time) < 2:
+        return Figure.absent(KEY, TITLE, 'the velocity was recorded at fewer than two instants')
     travel = float(np.ptp(field.positions)) / wave_speed(complete(series))
     end = min(shown.end, shown.start + MOST_TRAVELS * travel)
     time = np.linspace(shown.start, end, INSTANTS)

@@ -127,11 +127,12 @@ def field_figures(series: Series, shown: Window, units: Units = SI) -> list[Figu
     # A periodic run is told by its periods; another one by the waves, where they are resolved.
     over = shown if shown.frequency else window
     quantities = figure_fields.QUANTITIES
-    result = [figure_fields.surface(series, drawn, over, q, units) for q in quantities]
-    result += [figure_fields.wave_map(series, mapped, window, q, bool(in_waves), units)
+    result = [figure_fields.surface(series, drawn.having(q), over, q, units) for q in quantities]
+    result += [figure_fields.wave_map(series, mapped.having(q), window, q, bool(in_waves), units)
                for q in quantities]
-    result.append(figure_profiles.over_time(series, drawn, over, units))
-    result.append(net_figure(series, drawn, shown, units))
+    moving = drawn.having('velocity')
+    result.append(figure_profiles.over_time(series, moving, over, units))
+    result.append(net_figure(series, moving, shown, units))
     if full is None:
         result.append(Figure.absent('whole', 'The whole run', 'the field was not recorded'))
         return result

@@ -32,8 +32,15 @@ class Field:
 
     @property
     def interval(self) -> float:
-        """Return the median time between frames [s]; infinite for fewer than two frames."""
-        return float(np.median(np.diff(self.time))) if len(self.time) > 1 else np.inf
+        """
+        Return the usual time between frames [s]; infinite for fewer than two frames.
+
+        The mean, gaps left out: instants between two steps of the solver are at the next step.
+        """
+        if len(self.time) < 2:
+            return np.inf
+        steps = np.diff(self.time)
+        return float(np.mean(steps[steps <= 1.5 * np.median(steps)]))
 
     def between(self, start: float, end: float) -> 'Field':
         """Return the frames of start <= time <= end [s], half an interval added."""
@@ -43,6 +50,13 @@ class Field:
             self.time[shown], self.positions, self.labels, self.pressure[shown],
             self.velocity[shown], self.faces, self.source,
         )
+
+    def having(self, quantity: str) -> 'Field':
+        """Return the frames in which 'pressure' or 'velocity' was recorded."""
+        known = np.isfinite(getattr(self, quantity)).any(axis=1)
+        return self if known.all() else dataclasses.replace(
+            self, time=self.time[known], pressure=self.pressure[known],
+            velocity=self.velocity[known])
 
 
 @dataclass(frozen=True)

@@ -154,3 +154,26 @@ def test_a_row_of_the_whole_run_holds_whole_periods(run):
 def test_an_offline_run_has_one_sentence_about_real_time(run):
     figures = report.timing_figures(replace(run, source='simulate'))
     assert [figure.missing for figure in figures] == ['an offline run keeps no real time']
+
+
+def test_velocities_recorded_less_often_than_pressures_leave_no_holes(run):
+    velocity = run.flow_velocity.copy()
+    velocity[np.arange(len(velocity)) % 10 > 0] = np.nan
+    drawn = {one.key: one for one in
+             report.figures(replace(run, flow_velocity=velocity, field=None))}
+    for key in ('surface_velocity', 'map_velocity', 'surface_pressure', 'map_pressure'):
+        assert np.isfinite(drawn[key].traces[0]['z']).all()
+    assert '100 Hz' in drawn['map_velocity'].caption
+    assert '1000 Hz' in drawn['map_pressure'].caption
+    never = replace(run, flow_velocity=np.full_like(velocity, np.nan), field=None)
+    drawn = {one.key: one for one in report.figures(never)}
+    assert 'fewer than two instants' in drawn['surface_velocity'].missing
+    assert 'fewer than two instants' in drawn['net'].missing
+    assert not drawn['map_pressure'].missing
+
+
+def test_the_rate_of_frames_is_the_mean_one_gaps_left_out(run):
+    steps = np.tile([96e-6, 104e-6], 500)
+    steps[300] = 1.0
+    field = replace(run.field, time=np.concatenate(([0.0], np.cumsum(steps))))
+    assert figure_fields.origin(field) == 'the field at 10000 Hz'

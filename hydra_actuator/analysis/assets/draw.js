@@ -47,7 +47,7 @@
     const css = getComputedStyle(document.body);
     const colour = (name) => css.getPropertyValue(name).trim();
     const axis = { gridcolor: colour('--grid'), zerolinecolor: colour('--zero'), linecolor: colour('--zero'),
-      tickcolor: colour('--zero'), automargin: true };
+      tickcolor: colour('--zero'), automargin: true, exponentformat: 'power' };
     const scene = { ...axis, showbackground: false, automargin: undefined };
     return { layout: {
       paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)',
@@ -77,7 +77,7 @@
     }
     // A finger on a picture scrolls the page.
     if (narrow() && !layout.scene) layout.dragmode = false;
-    if (narrow() && layout.scene) layout.scene.camera.eye = { x: 1.5, y: -2.1, z: 1.0 };
+    if (narrow() && layout.scene) layout.scene.camera.eye = { x: 1.8, y: -2.5, z: 1.2 };
     return layout;
   }
 

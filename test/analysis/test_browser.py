@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The report in a real browser: drawn, silent, in light and dark, on a desk and on a phone.
+
+Needs Chromium (`apt install chromium`); how each page looked is left in build/screenshots.
+"""
+
+from dataclasses import replace
+import io
+from pathlib import Path
+import shutil
+
+from hydra_actuator.analysis.report import report_page
+from hydra_actuator.analysis.series import Report
+import numpy as np
+import pytest
+
+SCREENSHOTS = Path(__file__).parents[2] / 'build' / 'screenshots'
+NAMES = ('chromium', 'chromium-browser', 'google-chrome', 'google-chrome-stable')
+# Surfaces need WebGL, which software gives where there is no graphics card.
+OPTIONS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic',
+           '--disable-background-networking', '--disable-component-update', '--disable-sync']
+PATIENCE = 120_000      # [ms] for a page to be drawn on a busy machine
+DESK, PHONE = {'width': 1280, 'height': 900}, {'width': 390, 'height': 844}
+DARKEST, LIGHTEST = 60, 200     # of 255: what is a dark ground, and a light one
+
+
+@pytest.fixture(scope='module')
+def chromium():
+    """Run a headless Chromium."""
+    driver = pytest.importorskip('playwright.sync_api')
+    path = next(filter(None, map(shutil.which, NAMES)), None)
+    if path is None:
+        pytest.skip(f'no browser here, of {", ".join(NAMES)}')
+    with driver.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=path, args=OPTIONS, chromium_sandbox=False)
+        yield browser
+        browser.close()
+
+
+class Opened:
+    """A page in the browser, fully drawn, with all that it said and asked for."""
+
+    def __init__(self, browser, path, scheme, size):
+        self._context = browser.new_context(viewport=size, color_scheme=scheme)
+        self.tab = self._context.new_page()
+        self.complaints, self.requests = [], []
+        self.tab.on('console', self._listen)
+        self.tab.on('pageerror', lambda error: self.complaints.append(str(error)))
+        self.tab.on('request', lambda request: self.requests.append(request.url))
+        self.tab.goto(path.as_uri(), timeout=PATIENCE)
+        self.wait('document.body.dataset.drawn == '
+                  'JSON.parse(document.getElementById("figures").textContent).figures.length')
+
+    def _listen(self, message):
+        if message.type == 'error':
+            self.complaints.append(message.text)
+
+    def wait(self, condition):
+        """Wait until a condition of JavaScript holds."""
+        self.tab.wait_for_function(condition, timeout=PATIENCE)
+
+    def ask(self, expression, *more):
+        """Return the value of an expression of JavaScript."""
+        return self.tab.evaluate(expression, *more)
+
+    def pixels(self, selector):
+        """Return an element as it looks, (height, width, 3) of 0 to 255."""
+        image = pytest.importorskip('PIL.Image')
+        picture = self.tab.locator(selector).first.screenshot()
+        return np.asarray(image.open(io.BytesIO(picture)).convert('RGB')).astype(int)
+
+    def keep(self, name):
+        """Leave a screenshot of the whole page."""
+        SCREENSHOTS.mkdir(parents=True, exist_ok=True)
+        self.tab.screenshot(path=SCREENSHOTS / f'{name}.png', full_page=True)
+
+    def close(self):
+        """Close it."""
+        self._context.close()
+
+
+@pytest.fixture
+def open_page(chromium, tmp_path):
+    """Return a function that opens a page of text."""
+    opened = []
+
+    def show(text, scheme='light', size=DESK):
+        path = tmp_path / 'report.html'
+        path.write_text(text, encoding='utf-8')
+        opened.append(Opened(chromium, path, scheme, size))
+        return opened[-1]
+    yield show
+    for one in opened:
+        one.close()
+
+
+def undrawn(page):
+    """Return the keys of the figures in which a trace that is to be seen left no mark."""
+    return page.ask("""() => [...document.querySelectorAll('.plot')].filter((plot) => {
+      if (!plot.data) return true;
+      const marks = (kind) => [...plot.querySelectorAll(kind)];
+      return plot.data.some((trace, k) => {
+        if (trace.visible === false) return false;
+        if (trace.type === 'surface') return !plot.querySelector('.gl-container canvas');
+        if (trace.type === 'heatmap') return !marks('.heatmaplayer image').length;
+        return !marks('.scatterlayer .trace path').some((path) => path.getAttribute('d'));
+      });
+    }).map((plot) => plot.id)""")
+
+
+def holes(page):
+    """Return the share of each map's and surface's values that is no number, by key."""
+    return page.ask("""() => Object.fromEntries([...document.querySelectorAll('.plot')]
+      .flatMap((plot) => plot.data.filter((trace) => trace.z).map((trace) => {
+        const values = trace.z.flatMap((row) => [...row]);
+        return [plot.id, values.filter(Number.isNaN).length / values.length];
+      })))""")
+
+
+def colourful(pixels):
+    """Return the share of pixels that are neither ground, grid nor ink."""
+    return np.mean(np.ptp(pixels, axis=2) > 40)
+
+
+@pytest.fixture
+def eventful(run):
+    """Return a run whose velocities were recorded at every tenth tick only, with a fault."""
+    velocity = run.flow_velocity.copy()
+    velocity[np.arange(len(velocity)) % 10 > 0] = np.nan
+    faults = (Report(0.4, '/actuator: Faults', 1, 'at work', {'fault.valve_stuck': 'True'}),
+              Report(0.5, '/actuator: Faults', 0, 'over', {'fault.valve_stuck': 'False'}))
+    return replace(run, flow_velocity=velocity, diagnostics=run.diagnostics + faults, field=None)
+
+
+def check_drawn(page, width):
+    """Check that every figure is there, whole, and that the page is silent and fits."""
+    assert page.complaints == []
+    assert all(url.startswith(('file:', 'data:', 'blob:')) for url in page.requests)
+    assert undrawn(page) == []
+    found = holes(page)
+    assert set(found) >= {'surface_pressure', 'surface_velocity', 'map_pressure', 'map_velocity'}
+    assert max(found.values()) == 0.0
+    assert page.ask('document.documentElement.scrollWidth') <= width
+    for quantity in ('pressure', 'velocity'):
+        assert colourful(page.pixels(f'#surface_{quantity}')) > 0.05
+
+
+def check_ground(page, dark):
+    """Check that the page is dark with light words, or light with dark ones."""
+    ground = page.pixels('figure')[2, 2].mean()
+    ink = page.pixels('#sections .xtick text').mean(axis=2)
+    assert (ground < DARKEST and ink.max() > LIGHTEST) if dark else (
+        ground > LIGHTEST and ink.min() < DARKEST)
+
+
+def test_a_recording_on_a_desk(open_page, run):
+    page = open_page(report_page(run))
+    page.keep('report_desk_light')
+    check_drawn(page, DESK['width'])
+    check_ground(page, dark=False)
+    # Zoomed in one picture over time, all of them are.
+    page.ask("() => Plotly.relayout('sections', {'xaxis.range': [0.25, 0.5]})")
+    page.wait("document.getElementById('piston').layout.xaxis.range[0] === 0.25 && "
+              "document.getElementById('command').layout.xaxis.range[1] === 0.5")
+    page.tab.emulate_media(color_scheme='dark')
+    page.wait("getComputedStyle(document.querySelector('#sections .xtick text')).fill"
+              " === getComputedStyle(document.body).color")
+    check_ground(page, dark=True)
+    page.keep('report_desk_dark')
+
+
+def test_a_comparison_on_a_phone_in_the_dark(open_page, eventful, make_run):
+    page = open_page(
+        report_page(eventful, other=replace(make_run(0.9), name='another')), 'dark', PHONE)
+    page.keep('comparison_phone_dark')
+    check_drawn(page, PHONE['width'])
+    check_ground(page, dark=True)
