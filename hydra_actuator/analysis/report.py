@@ -55,7 +55,12 @@ def write_report(recording: str | Path, output: str | Path, other: str | Path | 
     output = Path(output)
     check_output(output)
     series = series_of(recording)
-    text = report_page(series, make_units(series), series_of(other) if other else None)
+    return write_page(output, report_page(
+        series, make_units(series), series_of(other) if other else None))
+
+
+def write_page(output: Path, text: str) -> Path:
+    """Write a page in one step and return its path; InputError where it cannot be."""
     draft = output.with_name(f'.{output.name}.{os.getpid()}')
     try:
         draft.write_text(text, encoding='utf-8')

@@ -22,7 +22,6 @@ DONE, REFUSED, STOPPED, NOT_A_NUMBER, LOST = 'done', 'refused', 'stopped', 'nan'
 # May be NaN in a run that is sound.
 OPTIONAL = {'bandwidth', 'resonance', 'resonance_gain', 'velocity_gain', 'peak_supply_flow',
             'supply_power'}
-LOCK = 'first.lock'
 
 # The kinds of actuators that this process has made: their kernels are in memory.
 _made: set[tuple] = set()
@@ -87,13 +86,17 @@ def _one_compiler(parameters: Parameters) -> Iterator[None]:
     with ExitStack() as stack:
         try:
             cache_root().mkdir(parents=True, exist_ok=True)
-            lock = stack.enter_context(open(cache_root() / LOCK, 'w'))
+            lock = stack.enter_context(open(cache_root() / _lock_name(kind), 'w'))
             fcntl.flock(lock, fcntl.LOCK_EX)
         except OSError:
             # Nowhere to keep kernels: each compiles its own.
             pass
         yield
     _made.add(kind)
+
+
+def _lock_name(kind: tuple) -> str:
+    return f'first-{"-".join(str(int(part)) for part in kind)}.lock'
 
 
 def _simulated(actuator: Actuator, drive: Drive) -> dict[str, float]:

@@ -27,12 +27,15 @@ def where(cluster):
     return Where(cluster.scheduler_address)
 
 
-@pytest.fixture
+def plan_over(*texts, method='sobol', count=8, base=BASE, duration=0.005):
+    """Return a plan over some factors, on a short sine."""
+    factors = tuple(read_factor(text, base) for text in texts)
+    samples = tuple(map(tuple, sample(method, factors, count)))
+    return Plan(base, factors, method, count, 0, Drive(Sine(200.0), duration, 0.0, 1e4), 'sine',
+                samples)
+
+
+@pytest.fixture(scope='session')
 def make_plan():
-    """Give plans over some factors, on a short sine."""
-    def make(*texts, method='sobol', count=8, base=BASE, duration=0.005):
-        factors = tuple(read_factor(text, base) for text in texts)
-        samples = tuple(map(tuple, sample(method, factors, count)))
-        return Plan(base, factors, method, count, 0, Drive(Sine(200.0), duration, 0.0, 1e4),
-                    'sine', samples)
-    return make
+    """Give plans that take moments."""
+    return plan_over
