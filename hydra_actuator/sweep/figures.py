@@ -18,7 +18,7 @@ FOREMOST = ('bandwidth', 'travel', 'peak_velocity', 'peak_pressure', 'lowest_pre
             'cavity_volume', 'supply_power')
 # Beyond this part of failed runs the rest is no fair sample.
 MOST_FAILED = 0.2
-ROW_HEIGHT, GAP = 150, 0.04
+ROW_HEIGHT, GAP = 190, 0.04
 
 
 def foremost(results: Results) -> list[Column]:
