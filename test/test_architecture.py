@@ -54,6 +54,10 @@ ROOMS = {
          'parameters', 'analysis'},
         {'numpy', 'scipy', 'control', 'matplotlib'},
     ),
+    'peers': (
+        {'peers', 'core', 'verification', 'hydra_actuator'},
+        {'numpy', 'rthym_moc', 'tsnet', 'ptsnet', 'inp'},
+    ),
     'sweep': (
         {'sweep', 'actuator', 'kernels', 'signals', 'interruption', 'parameters', 'response',
          'analysis'},

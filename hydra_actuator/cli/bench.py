@@ -27,6 +27,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--real-time', action='store_true',
                         help='lateness of a node alone, flooded and beside a busy core, and how '
                              'soon it answers, --duration seconds each, over DDS')
+    parser.add_argument('--peers', action='store_true',
+                        help='other solvers on the work they can do, in the same run, each '
+                             'installed into an environment of its own below build/peers')
     parser.add_argument('--options', action='store_true',
                         help='what each option of the physics costs, as a ratio in one run')
 
@@ -37,6 +40,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(f'--duration {arguments.duration:g} s is below 0.2 s')
     from hydra_actuator.parameters import load_parameters
     parameters = load_parameters(*arguments.config)
+    if arguments.peers:
+        return _peers()
     if arguments.nodes is not None:
         return _nodes(arguments)
     if arguments.real_time:
@@ -122,4 +127,13 @@ def _options(parameters, duration: float) -> int:
     for name, column in times.items():
         ratio = statistics.median(column / plain)
         print(f'{name:<32}{statistics.median(column) * 1e6:20.2f}{ratio:22.2f}')
+    return 0
+
+
+def _peers() -> int:
+    """Print the table of peers."""
+    from hydra_actuator.peers.comparison import compare, lines
+    with ProgressBar('bench') as progress:
+        rows = compare(Path('build', 'peers'), progress=progress)
+    print('\n'.join(lines(rows)))
     return 0
