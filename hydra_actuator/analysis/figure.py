@@ -25,6 +25,7 @@ class Figure:
     wide: bool = True           # whole width of the page, or half of it
     linked: bool = False        # x is the run's time [s]
     missing: str = field(default='')
+    frames: list[dict] = field(default_factory=list)    # of a moving picture: name, data
 
     @classmethod
     def absent(cls, key: str, title: str, reason: str) -> 'Figure':

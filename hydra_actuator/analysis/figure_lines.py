@@ -28,7 +28,7 @@ class Lines:
     def add(self, name: str, values: np.ndarray, row: int, scale: Scale, line: dict,
             **more) -> None:
         """Append one line in panel `row` (0 is the top one); instants without a value go."""
-        values = scale(values)
+        # What is kept is chosen before it is scaled: it is the same in all units.
         known = np.flatnonzero(np.isfinite(values))
         full_from = int(np.searchsorted(known, self._full_from))
         kept = known[line_samples(values[known], self._points, full_from)]
@@ -37,7 +37,7 @@ class Lines:
         self.traces.append({
             'type': 'scatter', 'mode': 'lines', 'name': name,
             'x': self._whole if every else self._whole[kept],
-            'y': np.asarray(values[kept], np.float32),
+            'y': np.asarray(scale(values[kept]), np.float32),
             'line': {'width': 1.5, **line}, 'xaxis': 'x',
             'yaxis': f'y{row + 1}' if row else 'y',
             'hovertemplate': f'%{{x:.4f}} {self._unit}: %{{y:.4g}} {unit}<extra>{name}</extra>',

@@ -19,6 +19,7 @@ import numpy as np
 
 INSTANTS = 6            # where none are chosen
 SLIDER_FRAMES = 60
+FRAME_TIME = 80         # [ms] of each while it plays
 TITLE = 'Along the streamline'
 
 
@@ -41,27 +42,39 @@ def over_time(series: Series, field: Field, shown: Window, units: Units = SI) ->
     frames = within[::max(1, -(-len(within) // SLIDER_FRAMES))]
     if not len(frames):
         return Figure.absent('streamline', TITLE, 'no frame lies in the part shown')
-    traces = []
-    for frame in frames:
-        first = bool(frame == frames[0])
-        traces += _profile(series, field, int(frame), units, BLUE, visible=first,
-                           showlegend=False)
+    moving = [{'name': str(place), 'data': _profile(series, field, int(frame), units, BLUE,
+                                                    showlegend=False)}
+              for place, frame in enumerate(frames)]
     layout = _layout(field, units)
     # The same axes for all instants: what moves is the oil.
     for axis, quantity in zip(('yaxis', 'yaxis2'), QUANTITIES):
         values = getattr(units, quantity)(getattr(field, quantity)[within])
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
-        margin = 0.05 * max(high - low, 1e-9)
+        margin = 0.05 * max(high - low, 0.02 * max(abs(low), abs(high)), 1e-9)
         layout[axis]['range'] = [low - margin, high + margin]
     layout['sliders'] = [{
-        'pad': {'t': 44}, 'currentvalue': {'prefix': 'time: '}, 'steps': [
-            {'label': _moment(field.time[frame], units), 'method': 'restyle',
-             'args': [{'visible': [k // 2 == place for k in range(len(traces))]}]}
+        'pad': {'t': 44, 'r': 30}, 'currentvalue': {'prefix': 'time: '}, 'steps': [
+            {'label': _moment(field.time[frame], units), 'method': 'animate',
+             'args': [[str(place)], _motion(0)]}
             for place, frame in enumerate(frames)],
     }]
+    layout['updatemenus'] = [{
+        'type': 'buttons', 'direction': 'right', 'x': 0, 'xanchor': 'left', 'y': 1.02,
+        'yanchor': 'bottom', 'showactive': False, 'buttons': [
+            {'label': '\u25b6 Play', 'method': 'animate',
+             'args': [None, {**_motion(FRAME_TIME), 'fromcurrent': True}]},
+            {'label': '\u275a\u275a Pause', 'method': 'animate', 'args': [[None], _motion(0)]},
+        ],
+    }]
     return Figure('streamline', TITLE,
-                  f'{span(shown)}, from {origin(field)}. The slider chooses the instant.',
-                  traces, layout, height=600)
+                  f'{span(shown)}, from {origin(field)}. The slider chooses the instant, Play '
+                  'runs through them.', list(moving[0]['data']), layout, height=600, frames=moving)
+
+
+def _motion(duration: int) -> dict:
+    """Return how a frame is shown: at once, for a time [ms]."""
+    return {'mode': 'immediate', 'transition': {'duration': 0},
+            'frame': {'duration': duration, 'redraw': False}}
 
 
 def _spread(shown: Window) -> np.ndarray:

@@ -2,8 +2,9 @@
 """
 One HTML page from figures and tables: everything inside, nothing fetched.
 
-Arrays travel as base64: lines as 32-bit floats, times as 32-bit steps and fields as 16-bit steps
-between their lowest and highest value, which is finer than any screen. Equal arrays travel once.
+Where a figure comes in several units, the page has a switch for them. Arrays travel as base64:
+lines as 32-bit floats, times as 32-bit steps and fields as 16-bit steps between their lowest and
+highest value, which is finer than any screen. Equal arrays travel once.
 A content security policy in the page forbids every connection.
 """
 
@@ -15,6 +16,7 @@ from importlib import resources
 import json
 
 from hydra_actuator.analysis.figure import Figure
+from hydra_actuator.analysis.variants import Choice, Rescaled
 from hydra_actuator.errors import InputError
 import numpy as np
 
@@ -59,13 +61,21 @@ def _stepped(values: np.ndarray) -> tuple[dict, bytes]:
     return description, steps.tobytes()
 
 
-def figures_json(figures: list[Figure]) -> str:
-    """Return the figures and their arrays as JSON that may stand inside a script element."""
+def figures_json(figures: list[Figure], units: int = 0) -> str:
+    """
+    Return the figures and their arrays as JSON that may stand inside a script element.
+
+    units: the number of those shown first.
+    """
     arrays = Arrays()
 
     def packed(value):
         if isinstance(value, np.ndarray):
             return {'$array': arrays.add(value)}
+        if isinstance(value, Rescaled):
+            return {'$array': arrays.add(value.array), '$scales': value.scales}
+        if isinstance(value, Choice):
+            return {'$units': [packed(one) for one in value.values]}
         if isinstance(value, dict):
             return {key: packed(part) for key, part in value.items()}
         if isinstance(value, (list, tuple)):
@@ -74,24 +84,30 @@ def figures_json(figures: list[Figure]) -> str:
 
     drawn = [
         {'key': f.key, 'traces': packed(f.traces), 'layout': packed(f.layout),
-         'height': f.height, 'linked': f.linked}
+         'frames': packed(f.frames), 'height': f.height, 'linked': f.linked}
         for f in figures if not f.missing
     ]
-    text = json.dumps({'figures': drawn, 'arrays': arrays.packed}, separators=(',', ':'))
+    text = json.dumps({'figures': drawn, 'arrays': arrays.packed, 'units': units},
+                      separators=(',', ':'))
     return text.replace('<', '\\u003c')
 
 
 def page(title: str, subtitle: str, figures: list[Figure], tables: list[tuple],
-         warnings: Sequence[str] = ()) -> str:
-    """Return the page; `tables` holds (title, note, rows of two texts)."""
+         warnings: Sequence[str] = (), units: Sequence[str] = (), chosen: int = 0) -> str:
+    """
+    Return the page; `tables` holds (title, note, rows of two texts).
+
+    units: the names of those that the figures come in, `chosen` the number of those shown first.
+    """
     parts = {
         'TITLE': html.escape(title),
         'SUBTITLE': html.escape(subtitle),
         'WARNINGS': '\n'.join(f'<p class="warning">{html.escape(w)}</p>' for w in warnings),
+        'UNITS': _switch(units, chosen),
         'STYLE': asset('style.css'),
         'PICTURES': '\n'.join(_place(figure) for figure in figures),
         'TABLES': '\n'.join(fact_table(*table) for table in tables),
-        'FIGURES': figures_json(figures),
+        'FIGURES': figures_json(figures, chosen),
         'PLOTLY': plotly_script(),
         'SCRIPT': asset('draw.js'),
     }
@@ -115,6 +131,16 @@ def asset(name: str) -> str:
     """Return a file of the room's assets: a template, a style or a script."""
     files = resources.files('hydra_actuator.analysis')
     return (files / 'assets' / name).read_text(encoding='utf-8')
+
+
+def _switch(units: Sequence[str], chosen: int) -> str:
+    """Return the element that chooses the units; nothing if there is no choice."""
+    if len(units) < 2:
+        return ''
+    options = ''.join(
+        f'<option value="{k}"{" selected" if k == chosen else ""}>{html.escape(name)}</option>'
+        for k, name in enumerate(units))
+    return f'<label class="units">Units <select id="units">{options}</select></label>'
 
 
 def _place(figure: Figure) -> str:

@@ -27,7 +27,8 @@ from hydra_actuator.analysis import (
 from hydra_actuator.analysis.figure import Figure
 from hydra_actuator.analysis.page import GENERATOR, page
 from hydra_actuator.analysis.series import Field, Series
-from hydra_actuator.analysis.units import SI, Units
+from hydra_actuator.analysis.units import choices, SI, Units
+from hydra_actuator.analysis.variants import merged
 from hydra_actuator.analysis.window import (
     active_span,
     best_field,
@@ -45,7 +46,7 @@ def write_report(recording: str | Path, output: str | Path, other: str | Path | 
     Write the report of a recording to an HTML file and return its path.
 
     other: a second recording, with which it is compared; make_units: what the figures are shown
-    in, by the run.
+    in first, by the run; the page has a switch.
 
     An earlier report at `output` is replaced, in one step; any other file there is refused.
     InputError if the recording cannot be read, holds no states, or plotly is missing.
@@ -85,15 +86,28 @@ def check_output(output: Path) -> None:
 
 
 def report_page(series: Series, units: Units = SI, other: Series | None = None) -> str:
-    """Return the page of a run, compared with another one if there is one."""
-    drawn, tables = figures(series, units), _tables(series)
+    """
+    Return the page of a run, compared with another one if there is one.
+
+    units: those shown first.
+    """
+    ways = choices(series)
+    drawn = merged([_pictures(series, one, other) for one in ways.values()])
+    tables = _tables(series)
     title, warnings = f'Actuator recording {series.name}', boiling.warnings(series)
     if other is not None:
-        drawn = figure_comparison.comparison(series, other, window_of(series), units) + drawn
         tables = [*_differences(series, other), *tables]
         title = f'Actuator recordings {series.name} and {other.name}'
         warnings += [f'{other.name}: {words}' for words in boiling.warnings(other)]
-    return page(title, _subtitle(series), drawn, tables, warnings)
+    return page(title, _subtitle(series), drawn, tables, warnings, tuple(ways),
+                list(ways.values()).index(units))
+
+
+def _pictures(series: Series, units: Units, other: Series | None) -> list[Figure]:
+    """Return the figures of the page in the units given, those of a comparison first."""
+    compared = [] if other is None else figure_comparison.comparison(
+        series, other, window_of(series), units)
+    return compared + figures(series, units)
 
 
 def figures(series: Series, units: Units = SI) -> list[Figure]:

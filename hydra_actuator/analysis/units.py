@@ -91,6 +91,15 @@ def nondimensional(series: Series) -> Units:
         Scale(1.0 / rate, '', 'f L/c'))
 
 
+def choices(series: Series) -> dict[str, Units]:
+    """Return all units that a run can be shown in, by what they are called."""
+    found = {name: units_named(name) for name in ('MPa', 'bar', 'Pa')}
+    try:
+        return {**found, 'non-dimensional': nondimensional(series)}
+    except InputError:
+        return found
+
+
 def complete(series: Series) -> Mapping[str, object]:
     """Return every parameter of a run, defaults for what its recording does not name."""
     table = definitions(series.section_names)

@@ -22,6 +22,7 @@ OPTIONS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-
            '--disable-background-networking', '--disable-component-update', '--disable-sync']
 PATIENCE = 120_000      # [ms] for a page to be drawn on a busy machine
 DESK, PHONE = {'width': 1280, 'height': 900}, {'width': 390, 'height': 844}
+PART = 4000             # [px] of a page in one screenshot
 DARKEST, LIGHTEST = 60, 200     # of 255: what is a dark ground, and a light one
 
 
@@ -72,9 +73,14 @@ class Opened:
         return np.asarray(image.open(io.BytesIO(picture)).convert('RGB')).astype(int)
 
     def keep(self, name):
-        """Leave a screenshot of the whole page."""
+        """Leave screenshots of the whole page, in parts that a graphics card can hold."""
         SCREENSHOTS.mkdir(parents=True, exist_ok=True)
-        self.tab.screenshot(path=SCREENSHOTS / f'{name}.png', full_page=True)
+        width, height = self.ask(
+            '[document.documentElement.clientWidth, document.documentElement.scrollHeight]')
+        for k, top in enumerate(range(0, height, PART)):
+            self.tab.screenshot(
+                path=SCREENSHOTS / f'{name}_{k + 1}.png', full_page=True,
+                clip={'x': 0, 'y': top, 'width': width, 'height': min(PART, height - top)})
 
     def close(self):
         """Close it."""
@@ -155,6 +161,62 @@ def check_ground(page, dark):
         ground > LIGHTEST and ink.min() < DARKEST)
 
 
+def axis(page, figure, name):
+    """Return the words at an axis, as they are drawn."""
+    return page.tab.locator(f'#{figure} .{name}title').text_content()
+
+
+def highest(page, figure, part='y'):
+    """Return the highest value of the first trace of a figure."""
+    return page.ask("""([id, part]) => Math.max(
+      ...[...document.getElementById(id).data[0][part]]
+        .flatMap((row) => (row.length ? [...row] : [row])))""", [figure, part])
+
+
+def check_units(page):
+    """Check that the switch changes words and numbers, and keeps the zoom into time."""
+    before = {one: highest(page, one) for one in ('sections', 'streamline')}
+    surface = highest(page, 'surface_pressure', 'z')
+    assert axis(page, 'sections', 'y') == 'pressure [MPa abs]'
+
+    def choose(name, number):
+        page.tab.select_option('#units', label=name)
+        page.wait(f'document.body.dataset.units === "{number}"')
+    choose('bar', 1)
+    assert axis(page, 'sections', 'y') == 'pressure [bar abs]'
+    assert axis(page, 'streamline', 'y') == 'pressure [bar abs]'
+    for one, value in before.items():
+        assert highest(page, one) == pytest.approx(10.0 * value, rel=1e-4)
+    assert highest(page, 'surface_pressure', 'z') == pytest.approx(10.0 * surface, rel=1e-4)
+    assert page.ask("document.getElementById('piston').layout.xaxis.range") == [0.25, 0.5]
+    choose('non-dimensional', 3)
+    assert axis(page, 'sections', 'y') == 'pressure p/p_max [-]'
+    assert axis(page, 'sections', 'x') == 'time t c/L [-]'
+    ambient, supply = 0.101325, 21.0
+    assert highest(page, 'sections') == pytest.approx(
+        (before['sections'] - ambient) / supply, rel=1e-4)
+    page.keep('report_nondimensional')
+    choose('MPa', 0)
+    assert highest(page, 'sections') == pytest.approx(before['sections'], rel=1e-6)
+    assert page.complaints == []
+
+
+def check_motion(page):
+    """Check that slider and play button move the oil."""
+    shown = '#streamline .slider-label'
+    line = """document.querySelector('#streamline .scatterlayer .trace path').getAttribute('d')"""
+    first, drawn = page.tab.locator(shown).first.text_content(), page.ask(line)
+    page.tab.locator('#streamline .slider-rail-touch-rect').scroll_into_view_if_needed()
+    rail = page.tab.locator('#streamline .slider-rail-touch-rect').bounding_box()
+    page.tab.mouse.click(rail['x'] + 0.5 * rail['width'], rail['y'] + 0.5 * rail['height'])
+    page.wait(f'document.querySelector("{shown}").textContent !== "{first}" && '
+              f'{line} !== "{drawn}"')
+    half = page.tab.locator(shown).first.text_content()
+    page.tab.locator('#streamline .updatemenu-button').first.click()
+    page.wait(f'document.querySelector("{shown}").textContent !== "{half}"')
+    page.tab.locator('#streamline .updatemenu-button').nth(1).click()
+
+
 def test_a_recording_on_a_desk(open_page, run):
     page = open_page(report_page(run))
     page.keep('report_desk_light')
@@ -164,6 +226,8 @@ def test_a_recording_on_a_desk(open_page, run):
     page.ask("() => Plotly.relayout('sections', {'xaxis.range': [0.25, 0.5]})")
     page.wait("document.getElementById('piston').layout.xaxis.range[0] === 0.25 && "
               "document.getElementById('command').layout.xaxis.range[1] === 0.5")
+    check_units(page)
+    check_motion(page)
     page.tab.emulate_media(color_scheme='dark')
     page.wait("getComputedStyle(document.querySelector('#sections .xtick text')).fill"
               " === getComputedStyle(document.body).color")

@@ -1,8 +1,11 @@
 'use strict';
-// Draws the figures of this page from the arrays in it; follows light and dark; links time axes.
+// Draws the figures of this page from the arrays in it, in the chosen units; follows light and
+// dark; links time axes.
 (() => {
   const page = JSON.parse(document.getElementById('figures').textContent);
   const decoded = new Map();
+  const choice = document.getElementById('units');
+  let units = choice ? Number(choice.value) : page.units;
   const narrow = () => window.innerWidth < 620;
   const dark = window.matchMedia('(prefers-color-scheme: dark)');
 
@@ -36,10 +39,18 @@
     return Array.from({ length: count }, (_, row) => values.subarray(row * width, (row + 1) * width));
   }
 
+  function scaled(index, [factor, offset]) {
+    const values = array(index);
+    if (factor === 1 && offset === 0) return values;
+    const one = (line) => line.map((value) => factor * value + offset);
+    return Array.isArray(values) ? values.map(one) : one(values);
+  }
+
   function resolve(value) {
     if (Array.isArray(value)) return value.map(resolve);
     if (value === null || typeof value !== 'object') return value;
-    if ('$array' in value) return array(value.$array);
+    if ('$units' in value) return resolve(value.$units[units]);
+    if ('$array' in value) return value.$scales ? scaled(value.$array, value.$scales[units]) : array(value.$array);
     return Object.fromEntries(Object.entries(value).map(([key, part]) => [key, resolve(part)]));
   }
 
@@ -63,7 +74,10 @@
     const layout = resolve(figure.layout);
     layout.template = template();
     layout.autosize = true;
-    layout.height = narrow() ? Math.min(figure.height, layout.scene ? 340 : 560) : figure.height;
+    // Stacked panels keep the height that the words at their axes need.
+    const panels = Object.keys(layout).filter((key) => key.startsWith('yaxis')).length;
+    const most = layout.scene ? 340 : Math.max(560, 150 * panels);
+    layout.height = narrow() ? Math.min(figure.height, most) : figure.height;
     layout.margin = layout.scene ? { l: 0, r: 0, t: 0, b: 0 } : { l: narrow() ? 44 : 58, r: 8, t: 12, b: 40 };
     if (layout.updatemenus) {
       layout.margin.t = 44;
@@ -77,7 +91,10 @@
     }
     // A finger on a picture scrolls the page.
     if (narrow() && !layout.scene) layout.dragmode = false;
-    if (narrow() && layout.scene) layout.scene.camera.eye = { x: 1.8, y: -2.5, z: 1.2 };
+    if (narrow() && layout.scene) {
+      layout.scene.camera.eye = { x: 1.95, y: -2.7, z: 1.3 };
+      layout.scene.yaxis.title.font = { size: 9 };
+    }
     return layout;
   }
 
@@ -95,16 +112,18 @@
     following = false;
   }
 
+  const config = () => ({
+    responsive: true, displaylogo: false, scrollZoom: false,
+    modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d', 'hoverClosest3d', 'resetCameraLastSave3d'],
+    displayModeBar: narrow() ? false : 'hover', doubleClickDelay: 400,
+  });
+
   async function draw(figure) {
     const plot = document.getElementById(figure.key);
     const layout = layoutOf(figure);
     plot.style.minHeight = `${layout.height}px`;
     try {
-      await Plotly.newPlot(plot, resolve(figure.traces), layout, {
-        responsive: true, displaylogo: false, scrollZoom: false,
-        modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d', 'hoverClosest3d', 'resetCameraLastSave3d'],
-        displayModeBar: narrow() ? false : 'hover', doubleClickDelay: 400,
-      });
+      await Plotly.newPlot(plot, { data: resolve(figure.traces), layout, frames: resolve(figure.frames), config: config() });
     } catch (error) {
       plot.textContent = `This picture could not be drawn: ${error.message}`;
       throw error;
@@ -114,6 +133,37 @@
       plot.on('plotly_relayout', (change) => follow(plot, change));
     }
   }
+
+  // In other units: what was turned, zoomed into (where the axis is the same) or hidden stays so.
+  async function redraw(figure) {
+    const plot = document.getElementById(figure.key);
+    const layout = layoutOf(figure);
+    const before = plot.layout;
+    if (layout.scene) layout.scene.camera = before.scene.camera;
+    if (figure.linked && before.xaxis.title.text === layout.xaxis.title.text) layout.xaxis.range = before.xaxis.range;
+    const traces = resolve(figure.traces);
+    traces.forEach((trace, k) => { if (plot.data[k].visible !== undefined) trace.visible = plot.data[k].visible; });
+    if (layout.updatemenus && !figure.frames.length) layout.updatemenus[0].active = before.updatemenus[0].active;
+    await (figure.frames.length
+      ? Plotly.newPlot(plot, { data: traces, layout, frames: resolve(figure.frames), config: config() })
+      : Plotly.react(plot, traces, layout, config()));
+  }
+
+  let drawing = Promise.resolve();
+
+  async function redrawAll(chosen) {
+    for (const figure of page.figures) {
+      if (units !== chosen) return;
+      if (JSON.stringify(figure).match(/"\$(units|scales)"/)) await redraw(figure);
+      await new Promise((resume) => setTimeout(resume));
+    }
+    document.body.dataset.units = chosen;
+  }
+
+  if (choice) choice.addEventListener('change', () => {
+    units = Number(choice.value);
+    drawing = drawing.then(() => redrawAll(units));
+  });
 
   async function drawAll() {
     for (const figure of page.figures) {
@@ -127,5 +177,5 @@
   dark.addEventListener('change', () => {
     for (const plot of document.querySelectorAll('.js-plotly-plot')) Plotly.relayout(plot, { template: template() });
   });
-  drawAll();
+  drawing = drawAll();
 })();
