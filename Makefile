@@ -8,7 +8,7 @@ BIN := .venv/bin
 # already put their libraries on LD_LIBRARY_PATH.
 unexport PYTHONPATH PYTHONHOME AMENT_PREFIX_PATH LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: demo test soak bench picture tables venv clean
+.PHONY: demo test soak bench study picture tables venv clean
 
 demo: venv
 	$(BIN)/hydra_actuator demo
@@ -23,6 +23,15 @@ soak: venv
 
 bench: venv
 	$(BIN)/hydra_actuator bench
+
+# The design study: 256 runs and their picture, see docs/design_study.md.
+study: venv
+	$(BIN)/hydra_actuator sweep --config examples/design_study/base.yaml \
+	  --vary cylinder.area_1+cylinder.area_2=5e-4:3e-3:log \
+	  --vary valve.area_gradient=0.01:0.1:log --vary line_1.length+line_2.length=0.02:0.6:log \
+	  --samples 256 --sine 100 --duration 0.15 --from 0.1 -o build/study
+	$(BIN)/hydra_actuator report build/study -o build/study.html
+	$(BIN)/python examples/design_study/draw.py build/study docs/design_study.png
 
 # The README's picture.
 picture: venv
