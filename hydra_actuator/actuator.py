@@ -6,10 +6,10 @@ The actuator: parameters, a state, and the call that moves it. No ROS needed.
     state = Actuator().advance(0.1, spool=0.5)
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 import math
 
-from hydra_actuator.actuator_state import ActuatorState, Cavities
+from hydra_actuator.actuator_state import ActuatorState, Cavities, state_of
 from hydra_actuator.assembly import (
     INPUTS,
     LOAD_FORCE,
@@ -18,28 +18,29 @@ from hydra_actuator.assembly import (
     SPOOL_2,
     TANK_PRESSURE,
 )
-from hydra_actuator.channels import Channels, DOMAINS
+from hydra_actuator.channels import Channels
 from hydra_actuator.core.advance import advance
 from hydra_actuator.core.observe import observe, read_field
 from hydra_actuator.equilibrium import start
 from hydra_actuator.faults import Faults
 from hydra_actuator.faults.faults import Change
+from hydra_actuator.field import field_labels, field_positions
 from hydra_actuator.geometry import section_positions, sections
 from hydra_actuator.kernels import warm_kernels
 from hydra_actuator.limits import broken_limit, SolverError
 from hydra_actuator.parameters import Parameters
-from hydra_actuator.plant_faults import air_fraction, apply_plant_faults, set_air
+from hydra_actuator.plant_faults import apply_plant_faults, set_air, void_fractions
+from hydra_actuator.signals import spool_pair
+from hydra_actuator.solver import EXTREMES, note_extremes, Solver
 from hydra_actuator.supply import Supply
 import numpy as np
 
-# Of absolute less vapour pressure [Pa]: without gas it can be below 0.
-TINY = 1e-6
-# What counts as below vacuum [Pa]: 0, less what rounding leaves.
-VACUUM = -1.0
+# Periods without end.
+MANY = 2**62
 
 
 class Actuator:
-    """A servo-actuator; courant: largest c dt/dx, largest_mach: largest |u|/c at any tick."""
+    """A servo-actuator; courant: its largest c dt/dx."""
 
     def __init__(self, parameters: Parameters | None = None) -> None:
         """
@@ -60,8 +61,10 @@ class Actuator:
         self._times = np.zeros(1)
         self._table = np.zeros((1, INPUTS))
         self._inputs = np.zeros(INPUTS)
+        self._extremes = np.zeros(1, EXTREMES)
         self.reset()
-        self._make_ready()
+        self.for_each_model(self._warm)
+        self.faults.air_may_come = p['fluid.cavitation'] or self.faults.enabled
 
     def reset(self) -> None:
         """
@@ -76,21 +79,20 @@ class Actuator:
         self._table[0, TANK_PRESSURE] = self.parameters['tank.pressure']
         self._inputs[:] = self._table[0]
         self._schedule = (self._times, self._table, True)
-        self._vacuum_ticks = 0
-        self.largest_mach = 0.0
+        self._extremes[0] = 0
         self.courant = float(np.max(self._model.courant))
         self.supply.begin()
         self.faults.restart()
         self.faults.follow(0.0)
         self._apply_faults()
 
-    def _make_ready(self) -> None:
-        self._warm()
-        self.faults.air_may_come = self.parameters['fluid.cavitation'] or self.faults.enabled
+    def for_each_model(self, call: Callable[[], None]) -> None:
+        """Call with each kind of model this actuator may come to have; before the first step."""
+        call()
         if self.faults.enabled and not self.parameters['fluid.cavitation']:
             # Air may get into the oil, or out again, which another kernel solves.
             self._model = set_air(self._model, self._state, 0.0 if self._model.gas else 1e-6)
-            self._warm()
+            call()
             self._apply_faults()
 
     def _warm(self) -> None:
@@ -124,7 +126,28 @@ class Actuator:
     @property
     def vacuum_ticks(self) -> int:
         """At how many ticks absolute pressure was below 0 somewhere: possible without gas only."""
-        return self._vacuum_ticks
+        return int(self._extremes['vacuum_ticks'][0])
+
+    @property
+    def largest_mach(self) -> float:
+        """Largest |u|/c at the end of any tick."""
+        return float(self._extremes['largest_mach'][0])
+
+    @property
+    def solver(self) -> Solver:
+        """What compiled code needs to solve periods, until the model changes."""
+        return Solver(
+            self._model, self._state, self._passes, self._schedule, self._inputs,
+            self.steps_per_period, self._sections, self._ambient, self.row,
+            self.channels.lowest_pressure, self._extremes)
+
+    @property
+    def undisturbed(self) -> int:
+        """How many periods can be solved before the supply or the fault script acts."""
+        if not self.supply.resting:
+            return 0
+        left = (self.faults.next_time - self._fault_time) / self.period
+        return MANY if left > MANY else max(0, math.floor(left) - 1)
 
     def tick_once(self, spool_1: float, spool_2: float, load_force: float) -> int:
         """
@@ -136,10 +159,7 @@ class Actuator:
         table[SPOOL_1], table[SPOOL_2], table[LOAD_FORCE] = spool_1, spool_2, load_force
         code = self._run(self._schedule, self.steps_per_period)
         self._observe()
-        row = self.row
-        if row[self.channels.lowest_pressure] < VACUUM:
-            self._vacuum_ticks += 1
-        self.largest_mach = max(self.largest_mach, float(row[Channels.MACH]))
+        note_extremes(self._extremes, self.row, self.channels.lowest_pressure)
         return code
 
     def follow(self, schedule: tuple[np.ndarray, np.ndarray, bool], steps: int) -> int:
@@ -169,10 +189,7 @@ class Actuator:
         """
         table = self._table[0]
         if spool is not None:
-            pair = (spool, spool) if np.ndim(spool) == 0 else tuple(spool)
-            if len(pair) != 2 or not all(-1.0 <= x <= 1.0 for x in pair):
-                raise ValueError(f'spool {spool!r} is not one or two numbers from -1 to 1')
-            table[SPOOL_1], table[SPOOL_2] = pair
+            table[SPOOL_1], table[SPOOL_2] = spool_pair(spool)
         if load_force is not None:
             if not math.isfinite(load_force):
                 raise ValueError(f'load_force {load_force!r} is not a finite force in N')
@@ -189,21 +206,9 @@ class Actuator:
     def state(self) -> ActuatorState:
         """The state as last advanced."""
         self._observe()
-        row, channels = self.row, self.channels
-        names = channels.section_names
-        return ActuatorState(
-            *(float(x) for x in row[:channels.SPOOL_1]),
-            tuple(float(x) for x in row[channels.SPOOL_1:channels.SPOOL_1 + channels.spools]),
-            dict(zip(names, row[channels.pressure].tolist())),
-            dict(zip(names, row[channels.flow_velocity].tolist())),
-            float(row[channels.cavity_volume]),
-            dict(zip(names, self._void_fractions().tolist())))
-
-    def _void_fractions(self) -> np.ndarray:
-        """Return the gas by volume at each section."""
-        fraction, model = air_fraction(self.parameters, self.faults.active), self._model
-        star = self.row[self.channels.pressure] - self._ambient + model.floor
-        return fraction * model.floor / np.maximum(star, TINY)
+        pressures = self.row[self.channels.pressure] - self._ambient
+        return state_of(self.row, self.channels, void_fractions(
+            self.parameters, self.faults.active, self._model, pressures))
 
     def status_message(self, code: int) -> str:
         """Return what a status code of this actuator means, with place and limit."""
@@ -237,20 +242,12 @@ class Actuator:
     @property
     def field_labels(self) -> list[str]:
         """The domain of each node of the field, in streamline order."""
-        counts = self._model.capacity + 1 + self._model.moving
-        return [name for name, count in zip(DOMAINS, counts) for _ in range(count)]
+        return field_labels(self._model)
 
     @property
     def field_positions(self) -> np.ndarray:
         """Streamline coordinate [m] of each node; the piston's faces at mid-stroke."""
-        model, parts = self._model, []
-        for d in range(len(DOMAINS)):
-            x = model.spacing[d] * np.arange(model.capacity[d] + 1)
-            if model.moving[d]:
-                x = np.append(x, model.piston[0][f'length_{d - 1}'])
-            x = model.origin[d] + model.direction[d] * x
-            parts.append(x if model.direction[d] > 0 else x[::-1])
-        return np.concatenate(parts)
+        return field_positions(self._model)
 
     @property
     def section_positions(self) -> list[float]:

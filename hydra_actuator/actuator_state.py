@@ -3,6 +3,9 @@
 
 from dataclasses import dataclass
 
+from hydra_actuator.channels import Channels
+import numpy as np
+
 
 @dataclass(frozen=True)
 class ActuatorState:
@@ -34,3 +37,15 @@ class Cavities:
     opened: int
     collapsed: int
     largest: float
+
+
+def state_of(row: np.ndarray, channels: Channels, void_fractions: np.ndarray) -> ActuatorState:
+    """Return the state that an observation row tells; void_fractions: gas of each section."""
+    names = channels.section_names
+    return ActuatorState(
+        *(float(x) for x in row[:channels.SPOOL_1]),
+        tuple(float(x) for x in row[channels.SPOOL_1:channels.SPOOL_1 + channels.spools]),
+        dict(zip(names, row[channels.pressure].tolist())),
+        dict(zip(names, row[channels.flow_velocity].tolist())),
+        float(row[channels.cavity_volume]),
+        dict(zip(names, void_fractions.tolist())))

@@ -49,7 +49,7 @@ def warm_kernels(passes: int, plain: bool = True) -> Iterator[None]:
     """
     with ExitStack() as stack:
         for members, key in _groups(passes, plain):
-            stack.enter_context(_warm(members, key))
+            stack.enter_context(warm(members, key))
         yield
 
 
@@ -66,7 +66,8 @@ def _groups(passes: int, plain: bool) -> tuple[tuple[tuple, str], ...]:
 
 
 @contextmanager
-def _warm(members: tuple, key: str) -> Iterator[None]:
+def warm(members: tuple, key: str) -> Iterator[None]:
+    """Let these kernels come from the directory of that name, or be compiled and kept there."""
     place = cache_root() / key
     if key in _at_hand:
         # Nothing will be compiled, so nothing could be kept.

@@ -18,6 +18,10 @@ from hydra_actuator.assembly import oil
 from hydra_actuator.core.gas import set_gas
 from hydra_actuator.core.records import Model, State
 from hydra_actuator.parameters import Parameters
+import numpy as np
+
+# Of absolute less vapour pressure [Pa]: without gas it can be below 0.
+TINY = 1e-6
 
 
 def apply_plant_faults(
@@ -41,6 +45,14 @@ def apply_plant_faults(
 def air_fraction(parameters: Parameters, faults: Mapping[str, object]) -> float:
     """Return the free gas of the oil with these faults, by volume at ambient pressure."""
     return oil(parameters).air_fraction + faults.get('fault.air_fraction', 0.0)
+
+
+def void_fractions(
+    parameters: Parameters, faults: Mapping[str, object], model: Model, pressures: np.ndarray
+) -> np.ndarray:
+    """Return the gas by volume at gauge pressures [Pa], with these faults."""
+    above_vapour = np.maximum(pressures + model.floor, TINY)
+    return air_fraction(parameters, faults) * model.floor / above_vapour
 
 
 def set_air(model: Model, state: State, fraction: float) -> Model:

@@ -23,6 +23,14 @@ def both_spools(spool: np.ndarray, load_force: np.ndarray | float = 0.0) -> np.n
     return np.column_stack([spool, spool, np.broadcast_to(load_force, spool.shape)])
 
 
+def spool_pair(spool: float | tuple[float, float]) -> tuple[float, float]:
+    """Return the commands of both spools; raises ValueError unless one or two in -1..1."""
+    pair = (spool, spool) if np.ndim(spool) == 0 else tuple(spool)
+    if len(pair) != 2 or not all(-1.0 <= x <= 1.0 for x in pair):
+        raise ValueError(f'spool {spool!r} is not one or two numbers from -1 to 1')
+    return pair
+
+
 @dataclass(frozen=True)
 class Hold:
     """A constant command."""

@@ -37,7 +37,7 @@ ROOMS = {
     'faults': ({'faults', 'parameters', 'csv_files'}, set()),
     'supply': (set(), set()),
     'instruments': ({'instruments'}, {'numpy'}),
-    'pacer': (set(), set()),
+    'realtime': ({'realtime', 'core', 'kernels', 'solver'}, {'numpy', 'numba', 'llvmlite'}),
     'interruption': (set(), set()),
     'verification': (
         {'verification', 'core', 'kernels', 'assembly', 'actuator', 'geometry', 'simulate',
@@ -164,7 +164,7 @@ def test_command_line_loads_nothing_heavy_on_import(path):
 @pytest.mark.parametrize('path', SOURCES, ids=label)
 def test_solver_reaches_neither_output_nor_analysis(path):
     if room(path) in ('actuator', 'assembly', 'kernels'):
-        assert not own_rooms(imported(path)) & {'recording', 'analysis', 'ros', 'cli', 'pacer'}
+        assert not own_rooms(imported(path)) & {'recording', 'analysis', 'ros', 'cli', 'realtime'}
 
 
 @pytest.mark.parametrize('path', sorted((PACKAGE / 'verification').glob('*.py')), ids=label)

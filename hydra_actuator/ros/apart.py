@@ -17,8 +17,8 @@ import sys
 import time
 
 from hydra_actuator.actuator import Actuator
-from hydra_actuator.pacer import Pacer
 from hydra_actuator.parameters import Parameters
+from hydra_actuator.realtime.pacer import Pacer
 from hydra_actuator.ros import main, rig, statuses
 from hydra_actuator.ros.clocks.source import ClockSource, Grant, Inputs
 from hydra_actuator.ros.scheduling import prepare_thread
@@ -98,6 +98,7 @@ class ClockApart(ClockSource):
 
     def __init__(self, parameters: Parameters, width: int):
         super().__init__(parameters['timing.period'])
+        self.ticks = 0
         self.shared = Shared(width)
         self._pacer = Pacer(self.period)
         self._base = 0

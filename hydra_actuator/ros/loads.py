@@ -13,8 +13,9 @@ import struct
 import threading
 import time
 
-from hydra_actuator.pacer import DurationHistogram, Pacer
 from hydra_actuator.parameters import Parameters
+from hydra_actuator.realtime.durations import DurationHistogram
+from hydra_actuator.realtime.pacer import Pacer
 from hydra_actuator.recording.messages import float64
 from hydra_actuator.ros.reception import Reception
 from hydra_actuator.ros.scheduling import prepare_thread

@@ -4,8 +4,9 @@ The actuator in a thread of its own, ticking as a clock source says.
 
 A tick: wait for the grant, note the command that holds now, solve the period that ends now with
 the command of the grant, or else the one noted a tick before (causal: what is known at an instant
-acts from it on), put the row into the ring. The thread never publishes, logs or writes. Whatever
-else happens to the plant (a parameter, the supply) is an order, carried out between two ticks.
+acts from it on), put the row into the ring. In real time a compiled loop ticks in
+its place while nothing else is due. The thread never publishes, logs or writes. Whatever else
+happens to the plant (a parameter, the supply) is an order, carried out between two ticks.
 """
 
 from collections import deque
@@ -14,8 +15,10 @@ import threading
 import traceback
 
 from hydra_actuator.actuator import Actuator
+from hydra_actuator.realtime.memory import frame_is_due
 from hydra_actuator.ros.clocks.source import Act, ClockSource, Grant, Inputs
 from hydra_actuator.ros.commands import CENTRED
+from hydra_actuator.ros.grid_loop import GridLoop, Standing
 from hydra_actuator.ros.ring import Ring
 from hydra_actuator.ros.setpoint import Setpoint
 from hydra_actuator.ros.worker import Worker
@@ -43,6 +46,7 @@ class Plant:
         self.on_failure: Callable[[], None] = lambda: None
         self.on_faults: Callable[[int], None] = lambda number: None
         self.prepare_thread: Callable[[], None] = lambda: None
+        self.loop: GridLoop | None = None
         self.resets = 0
         self.enabled = True
         self._actuator = actuator
@@ -50,7 +54,7 @@ class Plant:
         self._setpoint = setpoint
         self._ring = ring
         self._periods = round(clock.period / actuator.period)
-        self._frames_per_tick = min(1.0, field_rate * clock.period)
+        self.frames_per_tick = min(1.0, field_rate * clock.period)
         self._orders: deque[Callable[[], None]] = deque()
         self._was_reset = threading.Event()
         self._worker = Worker('solver', self._run)
@@ -136,14 +140,31 @@ class Plant:
             self.on_failure()
 
     def _tick_until_stopped(self) -> None:
-        while not self._worker.stopping and not self.failure:
+        while not self._is_over():
             self._follow_orders()
+            if self.loop is not None and self._has_ticked(self.loop):
+                continue
             if self._clock.simulated and not self._ring.has_room(_LOOK):
                 continue
             grant = self._clock.wait()
             if grant is not None:
                 self._perform(grant)
             self.failure = self.failure or self._clock.failure
+
+    def _is_over(self) -> bool:
+        if self.loop is not None:
+            # Before what it stands for is looked at: what comes later stays to be seen.
+            self.loop.attend()
+        return self._worker.stopping or bool(self.failure)
+
+    def _has_ticked(self, loop: GridLoop) -> bool:
+        """Leave the ticks to a compiled loop; False if the next one cannot be left to it."""
+        self._tell_faults()
+        before = self._rows
+        standing, code = loop.run(Standing(self._rows, self._stamp, self._held), self.enabled)
+        self._rows, self._stamp, self._held = standing
+        self.failure = self._actuator.status_message(code) if code else self._clock.failure
+        return self._rows > before or bool(self.failure)
 
     def _perform(self, grant: Grant) -> bool:
         """Do what a grant says; False if it failed."""
@@ -191,17 +212,22 @@ class Plant:
     def _push(self, stamp: int, tick: int = 0, held: tuple[float, ...] | None = None) -> None:
         """Put the state as it is into the ring, and the field if it is due."""
         actuator, ring, count = self._actuator, self._ring, self._rows
-        if actuator.faults.edition != self._edition:
-            self._edition = actuator.faults.edition
-            self.on_faults(count)
+        self._tell_faults()
         ring.push(count, stamp, tick, self._held if held is None else held, actuator.row)
-        share = self._frames_per_tick
-        if share and (not count or int(count * share) != int((count - 1) * share)):
+        share = self.frames_per_tick
+        if frame_is_due(share, count):
             actuator.read_field(ring.frame())
             ring.push_frame(stamp, actuator.time)
         self._rows = count + 1
         self._stamp = stamp
         ring.signal()
+
+    def _tell_faults(self) -> None:
+        """Say so if other faults are true from the next row on."""
+        edition = self._actuator.faults.edition
+        if edition != self._edition:
+            self._edition = edition
+            self.on_faults(self._rows)
 
     def _inputs(self) -> Inputs:
         """Return the inputs that hold from now on."""

@@ -14,8 +14,8 @@ from pathlib import Path
 import time
 
 from hydra_actuator.errors import Failure
-from hydra_actuator.pacer import DurationHistogram
 from hydra_actuator.parameters import Parameters
+from hydra_actuator.realtime.durations import DurationHistogram
 from hydra_actuator.ros.child import ChildNode
 from hydra_actuator.ros.loads import busy_core, Flood, sleeper, Steps
 from hydra_actuator.ros.measured import (

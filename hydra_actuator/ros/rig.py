@@ -21,8 +21,10 @@ from hydra_actuator.recording.messages import parameter_event
 from hydra_actuator.recording.run_data import run_data
 from hydra_actuator.recording.topics import ActuatorTopics
 from hydra_actuator.ros.clocks.choice import clock_source
+from hydra_actuator.ros.clocks.paced import Paced
 from hydra_actuator.ros.commands import CommandDesk, CommandRules
 from hydra_actuator.ros.diagnostics import Reports
+from hydra_actuator.ros.grid_loop import GridLoop
 from hydra_actuator.ros.inbox import COMMAND_QOS, Inbox, LOCKSTEP_QOS
 from hydra_actuator.ros.outputs import Outputs
 from hydra_actuator.ros.plant import Plant
@@ -192,6 +194,9 @@ class Rig:
         self.plant = Plant(
             actuator, self.clock, self.setpoint, self._ring,
             p['recording.field_rate'] if field else 0.0)
+        if isinstance(self.clock, Paced):
+            self.plant.loop = GridLoop(
+                actuator, self.clock, self.setpoint, self._ring, self.plant.frames_per_tick)
         self.plant.prepare_thread = lambda: self.setup.update(prepare_thread(p))
         self.plant.on_failure = lambda: self._fail(self.plant.failure)
 

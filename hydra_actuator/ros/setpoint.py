@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-The command that holds, between the thread that receives and the thread that solves.
+The command that holds, between the threads that receive and the thread that solves.
 
-Each attribute is replaced as a whole, so a reader meets the old or the new value, never half of
-one. A load holds for ever; a spool command until `timeout` has passed in silence.
+A load holds for ever; a spool command until `timeout` has passed in silence.
 """
 
 from collections.abc import Callable
+import threading
 import time
 
+from hydra_actuator.realtime.held import nothing_held, sample, SLOTS
 from hydra_actuator.ros.commands import CENTRED, Spools
 
 
@@ -16,9 +17,8 @@ class Setpoint:
     """
     What the valve and the load are asked to be now.
 
-    held: (spool 1, spool 2, load [N]) as the solver last took them; applied: how many commands
-    and loads it has taken, of several within a tick only the last; commanded: whether a spool
-    command holds, rather than the 0 before the first.
+    held: the memory it lies in, for compiled code that samples it as `sample` does; commanded:
+    whether a spool command holds, rather than the 0 before the first.
     """
 
     def __init__(
@@ -27,32 +27,30 @@ class Setpoint:
     ):
         """Take the silence [s] after which `on_timeout` (`hold`, `centre`) acts; 0 is never."""
         self.on_command: Callable[[tuple[float, float, float]], None] = lambda inputs: None
-        self.timed_out = False
-        self.timeouts = 0
-        self.held = (*CENTRED, 0.0)
-        self.applied = 0
+        self.held = nothing_held()
         self.commanded = False
-        self._fresh = False
         self._clock = clock
-        self._spools = CENTRED
-        self._load_force = 0.0
-        self._accepted_ns = clock()
+        self._filling, self._showing = threading.Lock(), threading.Lock()
+        self._hold(CENTRED)
         self.set_timeout(timeout, on_timeout)
 
     def set_timeout(self, timeout: float, on_timeout: str) -> None:
-        """Change what silence does."""
-        self._limit = (round(timeout * 1e9), on_timeout == 'centre')
+        """Change what silence does; while nobody samples."""
+        record = self.held.record[0]
+        record['timeout'], record['centres'] = round(timeout * 1e9), on_timeout == 'centre'
 
     def accept(self, spools: Spools) -> None:
         """Hold a spool command from the next tick on, and tell `on_command` what holds now."""
-        self._hold(spools)
-        self.commanded = self._fresh = True
-        self.on_command((*spools, self._load_force))
+        self._hold(spools, given=1)
+        self.commanded = True
+        self.on_command((*spools, float(self.held.record[0]['load_force'])))
 
     def accept_load(self, load_force: float) -> None:
         """Hold an external load [N] from the next tick on."""
-        self._load_force = load_force
-        self._fresh = True
+        with self._filling:
+            record = self.held.record[0]
+            record['load_force'] = load_force
+            record['given'] += 1
 
     def centre(self) -> None:
         """Forget the spool command: 0, as before the first one."""
@@ -62,26 +60,40 @@ class Setpoint:
     @property
     def silence(self) -> float:
         """Time [s] since the last accepted spool command, or since `centre`."""
-        return (self._clock() - self._accepted_ns) * 1e-9
+        slot = self.held.slots[self.held.record[0]['slot']]
+        return (self._clock() - int(slot['accepted'])) * 1e-9
+
+    @property
+    def sampled(self) -> tuple[float, float, float]:
+        """(spool 1, spool 2, load [N]) as the solver last took them."""
+        record = self.held.record[0]
+        return tuple(float(record[name]) for name in ('sampled_1', 'sampled_2', 'sampled_load'))
+
+    @property
+    def applied(self) -> int:
+        """How many commands and loads the solver has taken, of several within a tick one."""
+        return int(self.held.record[0]['applied'])
+
+    @property
+    def timed_out(self) -> bool:
+        """Whether the silence is too long."""
+        return bool(self.held.record[0]['timed_out'])
+
+    @property
+    def timeouts(self) -> int:
+        """How often it has become so."""
+        return int(self.held.record[0]['timeouts'])
 
     def sample(self) -> tuple[float, float, float]:
         """Return (spool 1, spool 2, load [N]) as they hold at this instant; for the solver."""
-        if self._fresh:
-            self._fresh = False
-            self.applied += 1
-        spools = self._spools
-        limit_ns, centre = self._limit
-        if limit_ns:
-            silent = self._clock() - self._accepted_ns > limit_ns
-            self.timeouts += silent and not self.timed_out
-            self.timed_out = silent
-            if silent and centre:
-                spools = CENTRED
-        else:
-            self.timed_out = False
-        self.held = (*spools, self._load_force)
-        return self.held
+        return tuple(map(float, sample(self.held, self._clock())))
 
-    def _hold(self, spools: Spools) -> None:
-        self._accepted_ns = self._clock()
-        self._spools = spools
+    def _hold(self, spools: Spools, given: int = 0) -> None:
+        # One lock after the other: what is in the slot is seen before its number is.
+        with self._filling:
+            record = self.held.record[0]
+            slot = (int(record['slot']) + 1) % SLOTS
+            self.held.slots[slot] = (*spools, self._clock())
+            with self._showing:
+                record['slot'] = slot
+            record['given'] += given

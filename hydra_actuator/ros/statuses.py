@@ -14,7 +14,7 @@ from types import MappingProxyType
 
 from hydra_actuator.actuator import Cavities
 from hydra_actuator.faults.announcements import NAME, standing
-from hydra_actuator.pacer import Pacer
+from hydra_actuator.realtime.pacer import Pacer
 from hydra_actuator.ros.commanders import Commanders
 from hydra_actuator.ros.commands import CommandDesk
 from hydra_actuator.ros.recorder import Recorder
@@ -125,7 +125,7 @@ def command(
     commanders: Commanders,
 ) -> Status:
     """Return what became of the command messages, and who sends them; age in s."""
-    spool_1, spool_2, load_force = setpoint.held
+    spool_1, spool_2, load_force = setpoint.sampled
     values = {
         'received': str(desk.accepted + desk.rejections + desk.without_command),
         'accepted': str(desk.accepted),

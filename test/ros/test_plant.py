@@ -5,8 +5,8 @@ import threading
 import time
 
 from hydra_actuator.faults import Faults
-from hydra_actuator.pacer import Pacer
 from hydra_actuator.parameters import Parameters
+from hydra_actuator.realtime.pacer import Pacer
 from hydra_actuator.ros.clocks.paced import Paced
 from hydra_actuator.ros.plant import Plant
 from hydra_actuator.ros.ring import Ring

@@ -2,8 +2,8 @@
 """The measurement of punctuality: that it measures what it says."""
 
 from hydra_actuator.cli.main import main
-from hydra_actuator.pacer import DurationHistogram
 from hydra_actuator.parameters import Parameters
+from hydra_actuator.realtime.durations import DurationHistogram
 from hydra_actuator.ros.loads import sleeper
 from hydra_actuator.ros.punctuality import Case, Lateness, lines
 import pytest

@@ -5,7 +5,7 @@ import threading
 import time
 
 from hydra_actuator import load_recording
-from hydra_actuator.pacer import Pacer
+from hydra_actuator.realtime.pacer import Pacer
 import numpy as np
 import pytest
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What diagnostics say of counts and figures."""
 
-from hydra_actuator.pacer import Pacer
+from hydra_actuator.realtime.pacer import Pacer
 from hydra_actuator.ros import statuses
 import pytest
 

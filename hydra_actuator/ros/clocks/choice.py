@@ -3,8 +3,8 @@
 
 from collections.abc import Callable
 
-from hydra_actuator.pacer import Pacer
 from hydra_actuator.parameters import Parameters
+from hydra_actuator.realtime.pacer import Pacer
 from hydra_actuator.ros.clocks.free import Free
 from hydra_actuator.ros.clocks.paced import Paced
 from hydra_actuator.ros.clocks.slaved import Slaved

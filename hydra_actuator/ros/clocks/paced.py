@@ -8,29 +8,36 @@ simulated time plus slip, whatever the clocks do meanwhile.
 
 import time
 
-from hydra_actuator.pacer import Pacer
+from hydra_actuator.realtime.pacer import Pacer
 from hydra_actuator.ros import statuses
 from hydra_actuator.ros.clocks.source import Act, ClockSource, Grant
 from hydra_actuator.ros.watch import Watched
+import numpy as np
 
 
 class Paced(ClockSource):
-    """Grants what a pacer grants."""
+    """
+    Grants what a pacer grants.
+
+    A compiled loop may tick on the pacer's grid meanwhile; attention (1,): not 0 where it is to
+    end; base: stamp [ns] of grid index 0.
+    """
 
     simulated = False
 
     def __init__(self, period: float, pacer: Pacer):
         super().__init__(period)
         self.pacer = pacer
-        self._base = 0
+        self.attention = np.zeros(1, np.int64)
+        self.base = 0
         self._missed = statuses.Recently()
 
     def start(self, last_stamp: int) -> int:
         """Lay the grid to this instant."""
         self.failure = ''
         self.pacer.start()
-        self._base = max(time.time_ns(), last_stamp)
-        return self._base
+        self.base = max(time.time_ns(), last_stamp)
+        return self.base
 
     def stop(self) -> None:
         """End the run of the pacer."""
@@ -40,11 +47,29 @@ class Paced(ClockSource):
         """Sleep until the next instant of the grid; a reset takes one of them."""
         index = self.pacer.wait()
         if index is None:
-            self.failure = 'a tick was missed, and timing.overrun_policy is halt'
+            self.halt()
             return None
-        self.ticks += 1
-        stamp = self._base + round(index * self._period_ns)
+        stamp = self.base + round(index * self._period_ns)
         return self._grant(stamp)
+
+    def halt(self) -> None:
+        """Say why there is no further tick."""
+        self.failure = 'a tick was missed, and timing.overrun_policy is halt'
+
+    def restart(self) -> None:
+        """Have the next grant be a reset."""
+        super().restart()
+        self.attention[0] = 1
+
+    def wake(self) -> None:
+        """Have a compiled loop end after its tick."""
+        super().wake()
+        self.attention[0] = 1
+
+    @property
+    def reset_is_due(self) -> bool:
+        """Tell whether the next grant is a reset."""
+        return self._restarting
 
     def out_of_turn(self, last_stamp: int) -> Grant:
         """Return a grant one period after the last state."""

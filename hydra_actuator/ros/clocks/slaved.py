@@ -30,6 +30,7 @@ class Slaved(ClockSource):
 
     def __init__(self, period: float, max_burst: int):
         super().__init__(period)
+        self.ticks = 0
         self.slipped = 0
         self._max_burst = max_burst
         self._heard = 0

@@ -58,7 +58,6 @@ class ClockSource:
     def __init__(self, period: float):
         self.period = period
         self.failure = ''
-        self.ticks = 0
         self._period_ns = period * NS
         self._restarting = False
         self._news = threading.Condition()
@@ -131,6 +130,7 @@ class OwnTime(ClockSource):
 
     def __init__(self, period: float):
         super().__init__(period)
+        self.ticks = 0
         self._periods = 0
 
     @property

@@ -3,7 +3,8 @@
 
 import math
 
-from hydra_actuator.pacer import DurationHistogram, Pacer
+from hydra_actuator.realtime.durations import DurationHistogram
+from hydra_actuator.realtime.pacer import Pacer
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
