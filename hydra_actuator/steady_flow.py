@@ -113,8 +113,8 @@ def solve_network(model: Model, supply: float, tank: float, lone: tuple,
     defect = residual(unknown)
     for _ in range(MOST_STEPS):
         size = np.abs(defect).max()
-        change = np.linalg.solve(
-            _slopes(residual, unknown, defect, scale, least), -defect) * scale
+        change = _newton_step(
+            _slopes(residual, unknown, defect, scale, least), defect) * scale
         for halving in range(MOST_HALVINGS):
             trial = unknown + 0.5 ** halving * change
             after = residual(trial)
@@ -128,6 +128,14 @@ def solve_network(model: Model, supply: float, tank: float, lone: tuple,
     if not np.abs(defect).max() < UNSOLVED:
         raise ParameterError('initial.equilibrium: no steady flow was found for these parameters')
     return unknown
+
+
+def _newton_step(slopes: np.ndarray, defect: np.ndarray) -> np.ndarray:
+    """Return what would take the defect away; the shortest that best does where none can."""
+    try:
+        return np.linalg.solve(slopes, -defect)
+    except np.linalg.LinAlgError:
+        return np.linalg.lstsq(slopes, -defect)[0]
 
 
 def _slopes(residual, unknown: np.ndarray, defect: np.ndarray, scale: np.ndarray,

@@ -56,8 +56,8 @@ def find_limits(model, state):
 
 @formula
 def runs_away(model, state):
-    """Return whether oil leaves an end at twice the allowed speed, c/2 or no number."""
-    most = min(0.5, 2.0 * model.max_mach)
+    """Return whether oil leaves an end at more than the allowed speed, or at no number."""
+    most = model.max_mach
     for end in range(state.end_velocity.size):
         if not abs(state.end_velocity[end]) < most * model.wave_speed[end // 2]:
             return True
