@@ -7,6 +7,7 @@ from hydra_actuator import load_recording
 from hydra_actuator.cli.main import main
 from hydra_actuator.ros.fleet import counts_up_to, MOST_MISSED, NodeFigures
 import pytest
+from rclpy.node import NodeNameNonExistentError
 from rclpy.serialization import deserialize_message
 from rosbags.highlevel import AnyReader
 from sensor_msgs.msg import JointState
@@ -16,12 +17,15 @@ COMMON = {'/diagnostics', '/parameter_events', '/rosout'}
 
 
 def names_of(peer, namespace):
-    """Return all topics and services of the node in a namespace."""
-    return {name for of in (
-        peer.node.get_publisher_names_and_types_by_node,
-        peer.node.get_subscriber_names_and_types_by_node,
-        peer.node.get_service_names_and_types_by_node,
-    ) for name, _ in of('actuator', namespace)}
+    """Return all topics and services of the node in a namespace; none before it is found."""
+    try:
+        return {name for of in (
+            peer.node.get_publisher_names_and_types_by_node,
+            peer.node.get_subscriber_names_and_types_by_node,
+            peer.node.get_service_names_and_types_by_node,
+        ) for name, _ in of('actuator', namespace)}
+    except NodeNameNonExistentError:
+        return set()
 
 
 @pytest.mark.parametrize('most, counts', [

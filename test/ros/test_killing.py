@@ -24,7 +24,8 @@ rclpy.init()
 node = rclpy.create_node('commander')
 publisher = node.create_publisher(Float64, '/actuator/spool_command', 10)
 while True:
-    publisher.publish(Float64(data=0.25))
+    # What is applied is told when it changes: who was not yet found then hears of the next change.
+    publisher.publish(Float64(data=0.25 - 0.05 * (int(time.monotonic()) % 2)))
     time.sleep(0.01)
 """
 SUBSCRIBER = """
@@ -69,13 +70,13 @@ def test_nothing_that_dies_takes_more_with_it_than_was_said(
     applied = peer.hear(Float64MultiArray, '/actuator/applied')
     subscriber, commander = script(SUBSCRIBER), script(COMMANDER)
     assert subscriber.stdout.readline() == b'heard\n'
-    peer.until(lambda: applied and applied[-1].data[1] == 0.25, 30.0)
+    peer.until(lambda: applied and applied[-1].data[1] > 0.0, 30.0)
 
     # A reliable subscriber that takes nothing any more holds nobody up.
     subscriber.kill()
     count = len(states)
     peer.until(lambda: len(states) > count + 500)
-    assert applied[-1].data[1] == 0.25
+    assert applied[-1].data[1] > 0.0
 
     # Without its commander the valve goes where it was told to go, once the time is over.
     commander.kill()
