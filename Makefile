@@ -8,7 +8,7 @@ BIN := .venv/bin
 # already put their libraries on LD_LIBRARY_PATH.
 unexport PYTHONPATH PYTHONHOME AMENT_PREFIX_PATH LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: demo test soak bench study picture tables venv clean
+.PHONY: demo test soak bench growth peers study picture tables venv clean
 
 demo: venv
 	$(BIN)/hydra_actuator demo
@@ -32,6 +32,13 @@ study: venv
 	  --samples 256 --sine 100 --duration 0.15 --from 0.1 -o build/study
 	$(BIN)/hydra_actuator report build/study -o build/study.html
 	$(BIN)/python examples/design_study/draw.py build/study docs/design_study.png
+
+# How cost grows, see docs/growth.md; and other solvers on one line.
+growth: venv
+	$(BIN)/hydra_actuator bench --growth docs/growth.png
+
+peers: venv
+	$(BIN)/hydra_actuator bench --peers
 
 # The README's picture.
 picture: venv

@@ -54,6 +54,10 @@ ROOMS = {
          'parameters', 'analysis'},
         {'numpy', 'scipy', 'control', 'matplotlib'},
     ),
+    'growth': (
+        {'growth', 'actuator', 'simulate', 'signals', 'sweep', 'parameters', 'analysis'},
+        {'numpy', 'matplotlib'},
+    ),
     'peers': (
         {'peers', 'core', 'verification', 'hydra_actuator'},
         {'numpy', 'rthym_moc', 'tsnet', 'ptsnet', 'inp'},

@@ -27,6 +27,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--real-time', action='store_true',
                         help='lateness of a node alone, flooded and beside a busy core, and how '
                              'soon it answers, --duration seconds each, over DDS')
+    parser.add_argument('--growth', nargs='?', const='', metavar='PICTURE.png',
+                        help='how cost grows with cells, simulated time, actuators, threads and '
+                             'workers; drawn into a picture if one is named')
     parser.add_argument('--peers', action='store_true',
                         help='other solvers on the work they can do, in the same run, each '
                              'installed into an environment of its own below build/peers')
@@ -42,6 +45,8 @@ def run(arguments: argparse.Namespace) -> int:
     parameters = load_parameters(*arguments.config)
     if arguments.peers:
         return _peers()
+    if arguments.growth is not None:
+        return _growth(arguments.growth)
     if arguments.nodes is not None:
         return _nodes(arguments)
     if arguments.real_time:
@@ -136,4 +141,17 @@ def _peers() -> int:
     with ProgressBar('bench') as progress:
         rows = compare(Path('build', 'peers'), progress=progress)
     print('\n'.join(lines(rows)))
+    return 0
+
+
+def _growth(picture: str) -> int:
+    """Print the curves of growth, and draw them."""
+    from hydra_actuator.growth.report import draw, lines, measure
+    if picture and not Path(picture).absolute().parent.is_dir():
+        raise InputError(f'no directory for the picture {picture}')
+    with ProgressBar('bench') as progress:
+        growth = measure(progress=progress)
+    print('\n'.join(lines(growth)))
+    if picture:
+        draw(growth, Path(picture))
     return 0

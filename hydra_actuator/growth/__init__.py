@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How cost grows: with cells, simulated time, actuators, threads, and the workers of a sweep."""
