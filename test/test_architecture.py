@@ -63,7 +63,7 @@ ROOMS = {
         {'numpy', 'rthym_moc', 'tsnet', 'ptsnet', 'inp'},
     ),
     'sweep': (
-        {'sweep', 'actuator', 'kernels', 'signals', 'interruption', 'parameters', 'response',
+        {'sweep', 'actuator', 'one_compiler', 'signals', 'interruption', 'parameters', 'response',
          'analysis'},
         {'numpy', 'scipy', 'dask', 'distributed', 'pyarrow', 'xarray', 'SALib'},
     ),

@@ -19,6 +19,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     drive.add_argument('--replay', metavar='RECORDING',
                        help='repeat a run from what was applied, with its own parameters unless '
                             '--config is given, and say whether its states are bit-identical')
+    parser.add_argument('--batch', metavar='RUNS.csv',
+                        help='a run per row, all cores at once, into OUT/NAME: header '
+                             'name,PARAMETER,...')
     parser.add_argument('--rate', type=float, metavar='HZ',
                         help='of states and pressures, at most one per step')
     parser.add_argument('-o', '--output', metavar='OUT',
@@ -30,6 +33,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.replay is not None:
         return _replay(arguments)
     _check(arguments)
+    if arguments.batch is not None:
+        return _batch(arguments)
     from hydra_actuator.parameters import load_parameters
     parameters = load_parameters(*arguments.config)
     signal, duration = drive(arguments)
@@ -43,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _replay(arguments: argparse.Namespace) -> int:
     """Repeat a run; 0 if every bit is the same, else 1."""
-    for name in ('duration', 'rate', 'amplitude', 'hold'):
+    for name in ('duration', 'rate', 'amplitude', 'hold', 'batch'):
         if getattr(arguments, name):
             raise InputError(f'--{name} does not go with --replay, which repeats a run as it was')
     if arguments.output is not None:
@@ -66,6 +71,24 @@ def _replay(arguments: argparse.Namespace) -> int:
     print(f'{verdict.differing} of {verdict.compared} states of {arguments.replay} differ, '
           f'the first {verdict.first}')
     return 1
+
+
+def _batch(arguments: argparse.Namespace) -> int:
+    """Run a batch; 0 if every run came to its end, else 1."""
+    from pathlib import Path
+
+    from hydra_actuator.batch import read_batch, simulate_batch
+    runs = read_batch(arguments.batch, *arguments.config)
+    signal, duration = drive(arguments)
+    with ProgressBar('simulate') as progress:
+        told = simulate_batch(runs, (signal, duration, arguments.rate), Path(arguments.output),
+                              progress=progress)
+    failed = {name: reason for name, reason in told.items() if reason}
+    print(f'{len(told) - len(failed)} runs of {duration:g} s simulated, {len(failed)} failed, '
+          f'recorded below {arguments.output}')
+    for name, reason in failed.items():
+        print(f'  {name}: {reason}')
+    return 1 if failed else 0
 
 
 def _check(arguments: argparse.Namespace) -> None:

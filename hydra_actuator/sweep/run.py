@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """One run of a sweep: parameters and a drive in, figures of merit or a reason out."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager, ExitStack
-import fcntl
 import math
 import time
 from typing import NamedTuple
 
 from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.channels import Channels
-from hydra_actuator.kernels import cache_root
+from hydra_actuator.one_compiler import one_compiler
 from hydra_actuator.parameters import ParameterError, Parameters
-from hydra_actuator.parameters.table_hydraulics import LINES
 from hydra_actuator.signals import Signal
 from hydra_actuator.sweep.merit import NAMES
 from hydra_actuator.sweep.small_signal import small_signal
@@ -22,9 +18,6 @@ DONE, REFUSED, STOPPED, NOT_A_NUMBER, LOST = 'done', 'refused', 'stopped', 'nan'
 # May be NaN in a run that is sound.
 OPTIONAL = {'bandwidth', 'resonance', 'resonance_gain', 'velocity_gain', 'peak_supply_flow',
             'supply_power'}
-
-# The kinds of actuators that this process has made: their kernels are in memory.
-_made: set[tuple] = set()
 
 
 class Drive(NamedTuple):
@@ -54,7 +47,7 @@ def run_one(run: int, base: dict, changes: dict, drive: Drive) -> Outcome:
     """Return the outcome of a run; base, changes: parameters that differ from the defaults."""
     try:
         parameters = Parameters({**base, **changes})
-        with _one_compiler(parameters):
+        with one_compiler(parameters):
             actuator = Actuator(parameters)
         began = time.thread_time()
         figures = {**small_signal(parameters), **_simulated(actuator, drive)}
@@ -68,35 +61,6 @@ def run_one(run: int, base: dict, changes: dict, drive: Drive) -> Outcome:
         if name not in OPTIONAL and not math.isfinite(figures[name]):
             return Outcome(run, NOT_A_NUMBER, f'{name} is {figures[name]}', {})
     return Outcome(run, DONE, '', figures)
-
-
-@contextmanager
-def _one_compiler(parameters: Parameters) -> Iterator[None]:
-    """
-    Let one process of this machine at a time make the first actuator of a kind.
-
-    It compiles the kernels that all others then load, if they share a cache.
-    """
-    kind = (parameters['solver.iterations'], parameters['fluid.cavitation'],
-            parameters['fault.enabled'],
-            any(parameters[f'{line}.friction'] in ('steady', 'unsteady') for line in LINES))
-    if kind in _made:
-        yield
-        return
-    with ExitStack() as stack:
-        try:
-            cache_root().mkdir(parents=True, exist_ok=True)
-            lock = stack.enter_context(open(cache_root() / _lock_name(kind), 'w'))
-            fcntl.flock(lock, fcntl.LOCK_EX)
-        except OSError:
-            # Nowhere to keep kernels: each compiles its own.
-            pass
-        yield
-    _made.add(kind)
-
-
-def _lock_name(kind: tuple) -> str:
-    return f'first-{"-".join(str(int(part)) for part in kind)}.lock'
 
 
 def _simulated(actuator: Actuator, drive: Drive) -> dict[str, float]:

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Many offline runs at once, one process per core: each into its own recording.
+
+A run is the same as alone, to the last bit of its states: it is the same call in a process of its
+own. A row of a batch file says how its run differs:
+
+    name,cylinder.mass,valve.stroke
+    light,5.0,0.0005
+    heavy,20.0,0.0005
+"""
+
+from collections.abc import Callable
+from concurrent.futures import as_completed, ProcessPoolExecutor
+import multiprocessing
+import os
+from pathlib import Path
+import re
+import signal
+from typing import NamedTuple
+
+from hydra_actuator.actuator import Actuator
+from hydra_actuator.csv_files import read_csv
+from hydra_actuator.errors import Failure, InputError
+from hydra_actuator.one_compiler import one_compiler
+from hydra_actuator.parameters import load_parameters, ParameterError, Parameters
+from hydra_actuator.parameters.yaml_files import read_scalar
+from hydra_actuator.signals import Signal
+from hydra_actuator.simulate import simulate
+
+_NAME = re.compile(r'[A-Za-z0-9][A-Za-z0-9._-]*')
+
+
+class Run(NamedTuple):
+    """One run of a batch: its name, which is its recording's, and its parameters."""
+
+    name: str
+    parameters: Parameters
+
+
+def read_batch(path: str | Path, *configs: str) -> list[Run]:
+    """Return the runs of a batch file, on top of parameter files; InputError by its line."""
+    path = Path(path)
+    rows = read_csv(path, 'name')
+    header = [cell.strip() for cell in rows[0][1]]
+    if header[0] != 'name' or len(set(header)) < len(header):
+        raise InputError(f'{path}: the header is name, then parameters, each once')
+    runs: dict[str, Run] = {}
+    for line, row in rows[1:]:
+        cells = [cell.strip() for cell in row]
+        if len(cells) != len(header):
+            raise InputError(f'{path}, line {line}: {len(cells)} values for {len(header)} columns')
+        name = cells[0]
+        if not _NAME.fullmatch(name) or name in runs:
+            raise InputError(f'{path}, line {line}: {name!r} is no name of a recording, or is '
+                             'there twice')
+        changes = {key: read_scalar(cell) for key, cell in zip(header[1:], cells[1:]) if cell}
+        try:
+            runs[name] = Run(name, load_parameters(*configs, overrides=changes))
+        except ParameterError as error:
+            raise InputError(f'{path}, line {line}: {error}') from None
+    if not runs:
+        raise InputError(f'{path} has no rows below its header')
+    return list(runs.values())
+
+
+def simulate_batch(runs: list[Run], drive: tuple[Signal, float, float | None], output: Path,
+                   workers: int | None = None,
+                   progress: Callable[[float], None] = lambda share: None) -> dict[str, str]:
+    """
+    Simulate runs side by side into `output`/NAME; return by name why a run failed, '' if not.
+
+    drive: the command, duration [s], rate [Hz] or None, as of `simulate`; workers: processes, one
+    per core this process may use if None. KeyboardInterrupt on Ctrl-C: recordings begun are whole.
+    """
+    with one_compiler(runs[0].parameters):
+        Actuator(runs[0].parameters)
+    output.mkdir(parents=True, exist_ok=True)
+    count = min(workers or len(os.sched_getaffinity(0)), len(runs))
+    told: dict[str, str] = {}
+    with ProcessPoolExecutor(count, multiprocessing.get_context('spawn'), _ignore) as pool:
+        futures = {pool.submit(_one, run, drive, output / run.name): run.name for run in runs}
+        try:
+            for future in as_completed(futures):
+                told[futures[future]] = future.result()
+                progress(len(told) / len(runs))
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return {run.name: told[run.name] for run in runs}
+
+
+def _ignore() -> None:
+    """Leave Ctrl-C alone while there is no run that it could end."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _one(run: Run, drive: tuple, output: Path) -> str:
+    """Simulate one run; return why it failed, or ''."""
+    command, duration, rate = drive
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with one_compiler(run.parameters):
+            Actuator(run.parameters)
+        simulate(run.parameters, command, duration, output, rate)
+    except (InputError, Failure) as error:
+        return str(error)
+    finally:
+        _ignore()
+    return ''

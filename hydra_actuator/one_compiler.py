@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Many processes that need the same kernels: one compiles, the others wait and load them."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager, ExitStack
+import fcntl
+
+from hydra_actuator.kernels import cache_root
+from hydra_actuator.parameters import Parameters
+from hydra_actuator.parameters.table_hydraulics import LINES
+
+# The kinds of actuators that this process has made: their kernels are in memory.
+_made: set[tuple] = set()
+
+
+@contextmanager
+def one_compiler(parameters: Parameters) -> Iterator[None]:
+    """
+    Let one process of this machine at a time make the first actuator of a kind.
+
+    It compiles the kernels that all others then load, if they share a cache.
+    """
+    kind = (parameters['solver.iterations'], parameters['fluid.cavitation'],
+            parameters['fault.enabled'],
+            any(parameters[f'{line}.friction'] in ('steady', 'unsteady') for line in LINES))
+    if kind in _made:
+        yield
+        return
+    with ExitStack() as stack:
+        try:
+            cache_root().mkdir(parents=True, exist_ok=True)
+            lock = stack.enter_context(open(cache_root() / _lock_name(kind), 'w'))
+            fcntl.flock(lock, fcntl.LOCK_EX)
+        except OSError:
+            # Nowhere to keep kernels: each compiles its own.
+            pass
+        yield
+    _made.add(kind)
+
+
+def _lock_name(kind: tuple) -> str:
+    return f'first-{"-".join(str(int(part)) for part in kind)}.lock'

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Many runs at once are each what they are alone, to the last bit."""
+
+from hydra_actuator.batch import read_batch
+from hydra_actuator.cli.main import main
+from hydra_actuator.errors import InputError
+from hydra_actuator.parameters import load_parameters
+from hydra_actuator.recording.reader import load_recording
+from hydra_actuator.signals import Sine
+from hydra_actuator.simulate import simulate
+import numpy as np
+import pytest
+
+
+@pytest.fixture
+def small(tmp_path):
+    path = tmp_path / 'small.yaml'
+    path.write_text('/**:\n  ros__parameters:\n    solver: {cells: 40}\n')
+    return str(path)
+
+
+def batch(tmp_path, text):
+    path = tmp_path / 'runs.csv'
+    path.write_text(text)
+    return str(path)
+
+
+def test_each_run_is_bit_identical_to_itself_alone_and_failures_are_told(
+        tmp_path, small, capsys):
+    runs = batch(tmp_path, 'name,cylinder.mass,solver.max_mach\n'
+                           'light,5,\nheavy,20,\nfast,10,0.001\n')
+    out = tmp_path / 'out'
+    assert main(['simulate', '--config', small, '--batch', runs, '--sine', '50',
+                 '--duration', '0.02', '-o', str(out)]) == 1
+    told = capsys.readouterr().out.splitlines()
+    assert told[0] == f'2 runs of 0.02 s simulated, 1 failed, recorded below {out}'
+    assert told[1].startswith('  fast: |u|/c = ')
+    for name, mass in (('light', 5.0), ('heavy', 20.0)):
+        alone = tmp_path / f'alone_{name}'
+        parameters = load_parameters(small, overrides={'cylinder.mass': mass})
+        simulate(parameters, Sine(50.0), 0.02, alone)
+        one, other = load_recording(out / name), load_recording(alone)
+        assert np.array_equal(one.rows, other.rows, equal_nan=True)
+        assert len(one.rows) == 21
+
+
+@pytest.mark.parametrize(('text', 'message'), [
+    ('name,cylinder.mass\n', 'has no rows'), ('mass\n1\n', 'the header is name'),
+    ('name,cylinder.mas\na,1\n', "line 2: unknown parameter 'cylinder.mas'"),
+    ('name,cylinder.mass\na,1\na,2\n', "line 3: 'a' is no name of a recording, or is there"),
+    ('name,cylinder.mass\n../a,1\n', "'../a' is no name"),
+    ('name,cylinder.mass\na\n', 'line 2: 1 values for 2 columns'),
+    ('name,cylinder.mass\na,-1\n', 'line 2: cylinder.mass = -1.0: below the minimum')])
+def test_a_batch_that_cannot_be_run_is_refused_by_its_line(tmp_path, text, message):
+    with pytest.raises(InputError) as refused:
+        read_batch(batch(tmp_path, text))
+    assert message in str(refused.value)
