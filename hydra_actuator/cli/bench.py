@@ -13,6 +13,7 @@ from hydra_actuator.errors import InputError
 
 SUMMARY = 'speed of the solver'
 MOST_NODES = 64
+SHORTEST_RECORDING = 3.0        # [s]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -33,6 +34,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--peers', action='store_true',
                         help='other solvers on the work they can do, in the same run, each '
                              'installed into an environment of its own below build/peers')
+    parser.add_argument('--recorder', action='store_true',
+                        help='what the recorder of a node takes in and writes in --duration '
+                             'seconds (600 for the full figure), and what it costs, over DDS')
     parser.add_argument('--options', action='store_true',
                         help='what each option of the physics costs, as a ratio in one run')
 
@@ -51,6 +55,8 @@ def run(arguments: argparse.Namespace) -> int:
         return _nodes(arguments)
     if arguments.real_time:
         return _real_time(arguments, parameters)
+    if arguments.recorder:
+        return _recorder(arguments)
     if arguments.options:
         return _options(parameters if arguments.config else None, arguments.duration)
     from hydra_actuator.benchmark import measure_speed
@@ -95,6 +101,22 @@ def _real_time(arguments: argparse.Namespace, parameters) -> int:
             progress.clear()
             print('\n'.join(lines(case)), flush=True)
     return 0
+
+
+def _recorder(arguments: argparse.Namespace) -> int:
+    """Print what became of the messages of a node; the exit code says whether none was dropped."""
+    if arguments.duration < SHORTEST_RECORDING:
+        raise InputError(f'--duration {arguments.duration:g} s is below {SHORTEST_RECORDING:g} s, '
+                         'which a recorder needs to tell of itself')
+    _need_ros()
+    from hydra_actuator.ros.recording_rate import lines, measure_recorder
+
+    print(f'{len(os.sched_getaffinity(0))} cores, load average {os.getloadavg()[0]:.1f} before',
+          flush=True)
+    with tempfile.TemporaryDirectory() as folder, ProgressBar('bench') as progress:
+        found = measure_recorder(arguments.duration, arguments.config, Path(folder), progress)
+    print('\n'.join(lines(found)))
+    return 1 if found.dropped else 0
 
 
 def _nodes(arguments: argparse.Namespace) -> int:

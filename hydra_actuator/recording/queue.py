@@ -47,7 +47,8 @@ class QueueStatistics:
     """
     Messages written and dropped by topic, and the bytes waiting, now and at most.
 
-    failures: how often writing broke off; resumed: how often it went on.
+    failures: how often writing broke off; resumed: how often it went on; processor_time [s]: that
+    the writing thread has had.
     """
 
     written: Mapping[str, int]
@@ -56,6 +57,7 @@ class QueueStatistics:
     most_waiting_bytes: int
     failures: int = 0
     resumed: int = 0
+    processor_time: float = 0.0
 
 
 class QueuedWriter:
@@ -79,6 +81,7 @@ class QueuedWriter:
         self._lost: Counter[str] = Counter()
         self._failures = self._resumed = 0
         self._retry = 0.0
+        self._processor_time = 0.0
         self._wake = threading.Event()
         self._closing = False
         self._thread = threading.Thread(target=self._run, name='recorder', daemon=True)
@@ -97,7 +100,7 @@ class QueuedWriter:
             return QueueStatistics(
                 dict(self._written), dict(self._dropped + self._lost),
                 self._waiting_bytes + self._in_hand_bytes, self._most_bytes,
-                self._failures, self._resumed,
+                self._failures, self._resumed, self._processor_time,
             )
 
     def put(self, topic: str, log_ns: int, publish_ns: int, data: bytes) -> bool:
@@ -166,7 +169,9 @@ class QueuedWriter:
         if done:
             done = self._attempt(self._sink.flush_if_due)
         count = Counter([message[0] for message in batch])
+        spent = time.thread_time()
         with self._lock:
+            self._processor_time = spent
             self._in_hand_bytes = 0
             self._handed.update(count)
             if done:

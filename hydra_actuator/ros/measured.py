@@ -7,7 +7,7 @@ from pathlib import Path
 import time
 
 from hydra_actuator.errors import Failure
-from hydra_actuator.recording.reader import load_recording
+from hydra_actuator.recording.reader import load_recording, Recording
 from hydra_actuator.ros.child import ChildNode
 from hydra_actuator.ros.domain import alone
 from lifecycle_msgs.msg import Transition
@@ -65,12 +65,16 @@ def change_all(driver: Node, children: Mapping[str, ChildNode], transition: int)
 
 def last_values(recording: Path, part: str) -> dict[str, str]:
     """Return the last values of a part's status in a recording, none if it has no such."""
-    values: dict[str, str] = {}
-    for message in load_recording(recording).messages('/diagnostics'):
-        for status in message['status']:
-            if status['name'].endswith(f': {part}') and status['values']:
-                values = {one['key']: one['value'] for one in status['values']}
-    return values
+    told = statuses_over_time(load_recording(recording), part)
+    return told[-1][1] if told else {}
+
+
+def statuses_over_time(recording: Recording, part: str) -> list[tuple[int, dict[str, str]]]:
+    """Return log time [ns] and values of each status of a part that has some."""
+    return [
+        (message['log_ns'], {one['key']: one['value'] for one in status['values']})
+        for message in recording.diagnostics for status in message['status']
+        if status['name'].endswith(f': {part}') and status['values']]
 
 
 def _wait_for(

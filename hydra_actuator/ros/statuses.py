@@ -173,6 +173,7 @@ def recorder(recorder: Recorder) -> Status:
             'dropped': str(dropped),
             'waiting_bytes': str(statistics.waiting_bytes),
             'most_waiting_bytes': str(statistics.most_waiting_bytes),
+            'writer_processor_time': f'{statistics.processor_time:.6f}',
         }
         values.update({
             f'dropped: {topic}': str(count) for topic, count in statistics.dropped.items()})
