@@ -101,12 +101,15 @@ def lowest_pressure(model, state):
 @formula
 def note_lowest(model, state):
     """Keep the lowest p* [Pa] of every place since the counts were last taken."""
-    star, lowest, nodes = state.star, state.lowest_star, state.star.size
+    nodes = state.star.size
     for d in range(model.start.size):
         first = model.start[d]
-        for i in range(first, first + state.last[d] + 1):
+        whole = slice(first, first + state.last[d] + 1)
+        star, lowest = state.star[whole], state.lowest_star[whole]
+        for i in range(star.size):
             lowest[i] = star[i] if star[i] < lowest[i] else lowest[i]
-        lowest[nodes + d] = min(lowest[nodes + d], state.end_star[2 * d + 1])
+        face = nodes + d
+        state.lowest_star[face] = min(state.lowest_star[face], state.end_star[2 * d + 1])
 
 
 @formula

@@ -52,12 +52,12 @@ def gas_balance(waves, strength, floor, oil, rounds):
     slowness, bulk_modulus = oil
     mu = free
     volume = held
-    deepest = -floor / bulk_modulus
+    deepest, stiffest = -floor / (bulk_modulus * slowness), STIFFEST / slowness
     for _ in range(rounds):
-        z = min(max(mu * slowness, deepest), STIFFEST)
-        compression = compression_series(z)
+        about = min(max(mu, deepest), stiffest)
+        compression = compression_series(about * slowness)
         steepness = bulk_modulus * slowness * (1.0 + compression)
-        linear = bulk_modulus * compression + floor - steepness * (z / slowness - free + held)
+        linear = bulk_modulus * compression + floor - steepness * (about - free + held)
         root = abs(linear) + math.sqrt(linear * linear + 4.0 * steepness * strength)
         above = linear >= 0.0
         volume = ((2.0 * strength if above else root)
@@ -71,19 +71,29 @@ def fill_cavities(model, state):
     """
     Let the gas of all inner nodes answer the waves that arrived, in new_p, new_q and star.
 
-    Where strength is 0 (ends, spare nodes) the waves stay as they are.
+    The last whole node of a chamber has none. Views that start at 0 let the loops vectorise.
     """
-    new_p, new_q, star, strength = state.new_p, state.new_q, state.star, state.strength
-    slowness, bulk_modulus = model.node_slowness, model.node_bulk_modulus
-    for i in range(new_p.size):
-        p, q = new_p[i], new_q[i]
+    for d in range(model.start.size):
+        if model.end_strength[d] > 0.0:
+            first = model.start[d] + 1
+            inside = slice(first, first + state.last[d] - 1)
+            fill_nodes((state.new_p[inside], state.new_q[inside]),
+                       (state.star[inside], state.strength[inside]),
+                       model.floor, (model.slowness[d], model.bulk_modulus[d]))
+
+
+@formula
+def fill_nodes(waves, gas, floor, oil):
+    """Let the gas of nodes answer in place; waves: (P, Q) [m/s], gas: (p* [Pa], its strength)."""
+    wave_p, wave_q = waves
+    star, strength = gas
+    for i in range(wave_p.size):
+        p, q = wave_p[i], wave_q[i]
         mu, pressure = gas_balance(
-            (0.5 * (p + q), strength[i] / star[i]), strength[i], model.floor,
-            (slowness[i], bulk_modulus[i]), ROUNDS_INSIDE)
-        empty = strength[i] == 0.0
-        new_p[i] = p if empty else 2.0 * mu - q
-        new_q[i] = q if empty else 2.0 * mu - p
-        star[i] = star[i] if empty else pressure
+            (0.5 * (p + q), strength[i] / star[i]), strength[i], floor, oil, ROUNDS_INSIDE)
+        wave_p[i] = 2.0 * mu - q
+        wave_q[i] = 2.0 * mu - p
+        star[i] = pressure
 
 
 @formula
