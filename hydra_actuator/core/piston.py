@@ -37,23 +37,24 @@ def face_pressures(ends, piston, velocity):
     face [m/s], v itself unless the piston leaks.
     """
     end_1, end_2 = ends
-    u_1, u_2 = velocity, velocity
     if piston.leakage > 0.0:
-        u_1, u_2 = leaking_velocities(ends, piston, velocity)
-    p_1, _, z_1, flatness_1 = end_relation(end_1, u_1)
-    p_2, _, z_2, flatness_2 = end_relation(end_2, -u_2)
-    return p_1, p_2, z_1 / flatness_1, z_2 / flatness_2, u_1, u_2
+        return leaking_faces(ends, piston, velocity)
+    p_1, _, z_1, flatness_1 = end_relation(end_1, velocity)
+    p_2, _, z_2, flatness_2 = end_relation(end_2, -velocity)
+    return p_1, p_2, z_1 / flatness_1, z_2 / flatness_2, velocity, velocity
 
 
 @formula
-def leaking_velocities(ends, piston, velocity):
-    """Return the oil's velocities [m/s] at both faces of a leaking piston that moves at v."""
+def leaking_faces(ends, piston, velocity):
+    """Return what `face_pressures` does, of a piston that leaks."""
     end_1, end_2 = ends
     flow, v_1, v_2 = 0.0, velocity, -velocity
+    p_1, p_2, stiffness_1, stiffness_2 = 0.0, 0.0, 0.0, 0.0
     low, high = -math.inf, math.inf
     for k in range(MOST_PASSES):
-        p_1, _, z_1, _ = end_relation(end_1, v_1)
-        p_2, _, z_2, _ = end_relation(end_2, v_2)
+        p_1, _, z_1, flatness_1 = end_relation(end_1, v_1)
+        p_2, _, z_2, flatness_2 = end_relation(end_2, v_2)
+        stiffness_1, stiffness_2 = z_1 / flatness_1, z_2 / flatness_2
         defect = piston.leakage * (p_1 - p_2) - flow
         change = defect / (1.0 + piston.leakage * (z_1 + z_2))
         if k >= PATIENCE:
@@ -70,7 +71,7 @@ def leaking_velocities(ends, piston, velocity):
         v_2 = -velocity - flow * end_2.inverse_area / (1.0 + p_2 / end_2.bulk_modulus)
         if abs(change) <= LEAKAGE_TOLERANCE * abs(flow) + NO_LEAKAGE:
             break
-    return v_1, -v_2
+    return p_1, p_2, stiffness_1, stiffness_2, v_1, -v_2
 
 
 @formula
