@@ -31,10 +31,11 @@ ROOMS = {
     'parameters': ({'parameters'}, {'numpy', 'yaml'}),
     'recording': ({'recording', 'interruption', 'hydra_actuator'},
                   {'numpy', 'mcap', 'lz4', 'zstandard', 'yaml', 'xarray', 'pandas', 'pyarrow'}),
-    'analysis': ({'analysis', 'recording', 'parameters'},
+    'analysis': ({'analysis', 'recording', 'parameters', 'step_response'},
                  {'numpy', 'plotly', 'matplotlib', 'imageio_ffmpeg', 'PIL'}),
     'csv_files': (set(), set()),
     'faults': ({'faults', 'parameters', 'csv_files'}, set()),
+    'step_response': (set(), {'numpy'}),
     'supply': (set(), set()),
     'instruments': ({'instruments'}, {'numpy'}),
     'realtime': ({'realtime', 'core', 'kernels', 'solver'}, {'numpy', 'numba', 'llvmlite'}),
@@ -67,7 +68,8 @@ ROOMS = {
          'analysis'},
         {'numpy', 'scipy', 'dask', 'distributed', 'pyarrow', 'xarray', 'SALib'},
     ),
-    'testing': ({'testing', 'actuator', 'parameters', 'ros'}, {'numpy', 'pytest'}),
+    'testing': (
+        {'testing', 'step_response', 'actuator', 'parameters', 'ros'}, {'numpy', 'pytest'}),
     'ros': None,
     'cli': None,
 }

@@ -22,6 +22,7 @@ from hydra_actuator.analysis import (
     figure_ranges,
     figure_spectrum,
     figure_timing,
+    merits,
     streamline,
 )
 from hydra_actuator.analysis.figure import Figure
@@ -191,7 +192,8 @@ def _differences(series: Series, other: Series) -> list[tuple]:
     names = dict.fromkeys((*series.parameters, *other.parameters))
     rows = [(name, f'{series.parameters.get(name, "-")} / {other.parameters.get(name, "-")}')
             for name in names if series.parameters.get(name) != other.parameters.get(name)]
-    return [(f'Parameters in which {series.name} and {other.name} differ',
+    return [(f'{series.name} / {other.name} in numbers', '', merits.merits(series, other)),
+            (f'Parameters in which {series.name} and {other.name} differ',
              '' if rows else 'None.', rows),
             (f'The run {other.name}', '', facts.run_facts(other))]
 

@@ -10,7 +10,8 @@ from importlib import import_module
 __all__ = ['LoopRun', 'run_loop', 'step_metrics', 'StepMetrics']
 
 _HOMES = {
-    'LoopRun': 'loop', 'run_loop': 'loop', 'StepMetrics': 'metrics', 'step_metrics': 'metrics',
+    'LoopRun': 'testing.loop', 'run_loop': 'testing.loop',
+    'StepMetrics': 'step_response', 'step_metrics': 'step_response',
 }
 
 
@@ -18,7 +19,7 @@ def __getattr__(name: str):
     """Import a name on first use (PEP 562)."""
     if name not in _HOMES:
         raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
-    value = getattr(import_module(f'{__name__}.{_HOMES[name]}'), name)
+    value = getattr(import_module(f'hydra_actuator.{_HOMES[name]}'), name)
     globals()[name] = value
     return value
 
