@@ -30,7 +30,8 @@ def series_of(path: str | Path) -> Series:
     parameters = recorded_parameters(recording)
     return Series(
         name=recording.path.resolve().name, path=recording.path, time=recording.time,
-        position=rows[:, channels.POSITION], velocity=rows[:, channels.VELOCITY],
+        position=np.ascontiguousarray(rows[:, channels.POSITION]),
+        velocity=np.ascontiguousarray(rows[:, channels.VELOCITY]),
         spool=rows[:, spools], load_force=rows[:, channels.LOAD_FORCE],
         section_names=channels.section_names, section_positions=_section_positions(recording),
         pressure=rows[:, channels.pressure], flow_velocity=rows[:, channels.flow_velocity],

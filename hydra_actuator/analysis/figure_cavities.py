@@ -2,7 +2,6 @@
 """Cavities over time, and maps of where the oil boils; nothing for a run without cavitation."""
 
 from hydra_actuator.analysis import boiling, streamline
-from hydra_actuator.analysis.decimation import bucket_extremes
 from hydra_actuator.analysis.figure import Figure, MILLI
 from hydra_actuator.analysis.figure_fields import (
     COLUMNS,
@@ -104,7 +103,7 @@ def window_map(series: Series, field: Field, shown: Window, units: Units = SI) -
 def whole_map(series: Series, field: Field, shown: Window, units: Units = SI) -> Figure:
     """Return the map of the whole run: the highest void fraction of every bucket of time."""
     buckets = whole_run_buckets(field, shown, WHOLE_RUN_ROWS)
-    starts, lowest, _ = bucket_extremes(field.pressure, buckets)
+    starts, lowest, _ = field.extremes('pressure', buckets)
     grid = np.linspace(field.positions.min(), field.positions.max(), COLUMNS)
     exponents = np.log10(boiling.void_fraction(series, lowest))
     values = streamline.extremes_on_even_grid(field, exponents, grid, highest=True)

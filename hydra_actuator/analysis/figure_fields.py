@@ -7,7 +7,6 @@ piston the line between the two chambers.
 """
 
 from hydra_actuator.analysis import streamline
-from hydra_actuator.analysis.decimation import bucket_extremes
 from hydra_actuator.analysis.figure import Figure, MILLI
 from hydra_actuator.analysis.palette import INK, PRESSURE_SCALE, VELOCITY_SCALE
 from hydra_actuator.analysis.series import Field, Series
@@ -120,7 +119,7 @@ def whole_run_map(field: Field, quantity: str, buckets: int = WHOLE_RUN_ROWS,
                   units: Units = SI) -> Figure:
     """Return the map of the whole run: the highest or the lowest value of every bucket of time."""
     scale: Scale = getattr(units, quantity)
-    starts, lowest, highest = bucket_extremes(getattr(field, quantity), buckets)
+    starts, lowest, highest = field.extremes(quantity, buckets)
     grid = np.linspace(field.positions.min(), field.positions.max(), COLUMNS)
     maps = [
         scale(streamline.extremes_on_even_grid(field, part, grid, highest=high))

@@ -6,7 +6,6 @@ Within the stroke a place belongs to the chamber that covers it; both count.
 """
 
 from hydra_actuator.analysis import streamline
-from hydra_actuator.analysis.decimation import bucket_extremes
 from hydra_actuator.analysis.figure import Figure, rows_layout
 from hydra_actuator.analysis.figure_fields import COLUMNS, origin, QUANTITIES, x_axis
 from hydra_actuator.analysis.palette import BLUE, ORANGE
@@ -51,7 +50,7 @@ def ranges(field: Field, stations: Field | None, units: Units = SI) -> Figure:
 
 def _extreme(field: Field, quantity: str, word: str, grid: np.ndarray) -> np.ndarray:
     """Return the highest or lowest value of the run on a grid of x [m]."""
-    _, lowest, highest = bucket_extremes(getattr(field, quantity), 1)
+    _, lowest, highest = field.extremes(quantity, 1)
     part = highest if word == 'highest' else lowest
     return streamline.extremes_on_even_grid(field, part, grid, highest=word == 'highest')[0]
 

@@ -6,6 +6,7 @@ Hann window over the evenly spaced states of the part shown, mean removed, scale
 sine has its amplitude. A state rate of f shows nothing above f/2, and folds what is there.
 """
 
+from hydra_actuator.analysis.decimation import extreme_samples
 from hydra_actuator.analysis.figure import Figure, rows_layout
 from hydra_actuator.analysis.line_frequencies import line_frequencies
 from hydra_actuator.analysis.palette import BLUE, GREEN, line_style, ORANGE, VERMILION
@@ -21,6 +22,7 @@ STATIONS_SHOWN = ('A', 'E', 'F', 'J')
 LINE_COLOURS = {'supply_line': BLUE, 'return_line': ORANGE, 'piston and oil': VERMILION}
 RANGE = 1e-5            # of the highest value, that the picture reaches down to
 HIGHEST = 4.0           # [c/L], that is shown
+POINTS = 8000           # of one line; of its neighbours the lowest and the highest stay
 
 
 def spectrum(series: Series, part: Window, units: Units = SI) -> Figure:
@@ -36,15 +38,17 @@ def spectrum(series: Series, part: Window, units: Units = SI) -> Figure:
     traces, tops = [], dict.fromkeys(quantities, 0.0)
     for name, values, quantity, style in lines:
         scale = units.pressure_change if quantity == 'pressure' else units.velocity
-        frequency, height = amplitudes(time, scale(values))
+        frequency, height = amplitudes(time, values)
         if not height[1:].any():
             continue            # nothing moves there
+        kept = 1 + extreme_samples(height[1:], POINTS // 2)
+        frequency, height = frequency[kept], scale(height[kept])
         tops[quantity] = max(tops[quantity], float(height.max()))
         row = quantities.index(quantity) + 1
         traces.append({
             'type': 'scatter', 'mode': 'lines', 'name': name,
-            'x': units.frequency(frequency[1:]),
-            'y': np.asarray(np.where(height[1:] > 0, height[1:], np.nan), np.float32),
+            'x': units.frequency(frequency),
+            'y': np.asarray(np.where(height > 0, height, np.nan), np.float32),
             'xaxis': 'x', 'yaxis': 'y' if row == 1 else f'y{row}',
             'line': {'width': 1.2, **style},
         })
@@ -62,12 +66,30 @@ def spectrum(series: Series, part: Window, units: Units = SI) -> Figure:
 
 
 def amplitudes(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return (frequencies [Hz], amplitudes) of evenly sampled values, Hann window."""
+    """
+    Return (frequencies [Hz], amplitudes) of evenly sampled values, Hann window.
+
+    Up to 1 % of them are left out at the beginning, for a length that is quickly transformed.
+    """
+    first = len(values) - fast_length(len(values))
+    time, values = time[first:], values[first:]
     window = np.hanning(len(values))
     values = np.nan_to_num(values - np.nanmean(values))
     interval = (time[-1] - time[0]) / (len(time) - 1)
     height = np.abs(np.fft.rfft(values * window)) * 2.0 / window.sum()
     return np.fft.rfftfreq(len(values), interval), height
+
+
+def fast_length(count: int) -> int:
+    """Return the highest length up to a count without prime factors above 11, if it is near."""
+    for length in range(count, int(0.99 * count), -1):
+        rest = length
+        for prime in (2, 3, 5, 7, 11):
+            while rest % prime == 0:
+                rest //= prime
+        if rest == 1:
+            return length
+    return count
 
 
 def _columns(series: Series) -> list[tuple[int, str]]:

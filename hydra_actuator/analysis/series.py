@@ -8,8 +8,10 @@ streamline from pump to tank [m]. Missing parts are empty or None: a picture say
 
 import dataclasses
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
+from hydra_actuator.analysis.decimation import bucket_extremes
 import numpy as np
 
 
@@ -41,6 +43,18 @@ class Field:
             return np.inf
         steps = np.diff(self.time)
         return float(np.mean(steps[steps <= 1.5 * np.median(steps)]))
+
+    @cached_property
+    def _extremes(self) -> dict:
+        """Hold what `extremes` has found: of a long run it takes seconds."""
+        return {}
+
+    def extremes(self, quantity: str, buckets: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return `bucket_extremes` of 'pressure' or 'velocity'."""
+        key = quantity, buckets
+        if key not in self._extremes:
+            self._extremes[key] = bucket_extremes(getattr(self, quantity), buckets)
+        return self._extremes[key]
 
     def between(self, start: float, end: float) -> 'Field':
         """Return the frames of start <= time <= end [s], half an interval added."""

@@ -56,7 +56,7 @@ def scan(path: Path) -> ScannedFile:
     """Walk a file; RecordingError if it is none, or damaged before its end."""
     try:
         size = path.stat().st_size
-        content = np.memmap(path, np.uint8, 'r') if size else np.empty(0, np.uint8)
+        content = np.asarray(np.memmap(path, np.uint8, 'r')) if size else np.empty(0, np.uint8)
     except OSError as error:
         raise RecordingError(f'{path} cannot be read: {error.strerror}') from None
     if content[: len(MAGIC)].tobytes() != MAGIC:

@@ -174,3 +174,20 @@ def test_what_a_recording_cannot_give_is_said(run, name, change, words):
 def test_a_part_that_is_not_in_the_run_is_refused(run, choice, words):
     with pytest.raises(InputError, match=words):
         view_of(run, **choice)
+
+
+def test_a_long_record_is_cut_to_a_length_that_is_quickly_transformed():
+    assert [figure_spectrum.fast_length(n) for n in (1, 1024, 1025, 600_001)] == [
+        1, 1024, 1024, 600_000]
+    assert figure_spectrum.fast_length(103) == 103
+
+
+def test_the_spectrum_of_a_long_run_keeps_its_peaks(make_run):
+    run = make_run(40.0, field_rate=1.0)
+    kept = figure_spectrum.spectrum(run, Window(0.0, 40.0))
+    frequency, height = figure_spectrum.amplitudes(run.time, run.velocity)
+    line = next(t for t in kept.traces if t['name'] == 'piston velocity')
+    assert len(frequency) > 2 * figure_spectrum.POINTS
+    assert len(line['x']) <= figure_spectrum.POINTS + 2
+    assert np.nanmax(line['y']) == np.float32(height[1:].max())
+    assert line['x'][np.nanargmax(line['y'])] == frequency[1 + height[1:].argmax()]
