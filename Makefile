@@ -21,8 +21,10 @@ test: venv
 soak: venv
 	$(BIN)/python -m pytest -m soak
 
+# Speed, and whether a step has become slower against a bare loop than docs/speed.jsonl has it.
 bench: venv
 	$(BIN)/hydra_actuator bench
+	$(BIN)/hydra_actuator bench --guard docs/speed.jsonl
 
 # The design study: 256 runs and their picture, see docs/design_study.md.
 study: venv

@@ -66,12 +66,12 @@ def measure_speed(parameters: Parameters | None = None, duration: float = 2.0) -
     bare = (fields, (fields[0].copy(), fields[1].copy()),
             (model.courant, model.slope, model.friction), actuator._passes)
     repeat_sweep(*bare, 1)
-    _drive(actuator, math.ceil(WARM_UP / actuator.period))
+    drive(actuator, math.ceil(WARM_UP / actuator.period))
     steps = PIECE * actuator.steps_per_period
     times, bare_times = [], []
     for _ in range(_pieces(actuator, duration)):
         began = time.perf_counter()
-        _drive(actuator, PIECE)
+        drive(actuator, PIECE)
         ended = time.perf_counter()
         repeat_sweep(*bare, steps)
         times.append((ended - began) / steps)
@@ -93,13 +93,13 @@ def measure_options(parameters: Parameters | None = None, duration: float = 1.0,
     choices = {'as configured': {}, **OPTIONS, 'everything': EVERYTHING}
     actuators = {name: Actuator(model.replace(choice)) for name, choice in choices.items()}
     for actuator in actuators.values():
-        _drive(actuator, math.ceil(WARM_UP / actuator.period))
+        drive(actuator, math.ceil(WARM_UP / actuator.period))
     pieces = _pieces(next(iter(actuators.values())), duration)
     times = {name: np.empty(pieces) for name in choices}
     for k in range(pieces):
         for name, actuator in actuators.items():
             began = time.thread_time()
-            _drive(actuator, PIECE)
+            drive(actuator, PIECE)
             steps = PIECE * actuator.steps_per_period
             times[name][k] = (time.thread_time() - began) / steps
         if progress is not None:
@@ -112,7 +112,7 @@ def _pieces(actuator: Actuator, duration: float) -> int:
     return max(1, math.floor((duration - WARM_UP) / actuator.period / PIECE))
 
 
-def _drive(actuator: Actuator, ticks: int) -> None:
+def drive(actuator: Actuator, ticks: int) -> None:
     """Advance by ticks under the sine; SolverError where the method breaks."""
     for _ in range(ticks):
         command = math.sin(2.0 * math.pi * FREQUENCY * actuator.tick * actuator.period)

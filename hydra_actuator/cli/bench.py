@@ -39,6 +39,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                              'seconds (600 for the full figure), and what it costs, over DDS')
     parser.add_argument('--options', action='store_true',
                         help='what each option of the physics costs, as a ratio in one run')
+    parser.add_argument('--profile', action='store_true',
+                        help='where the time of a step goes, and how far it is from a bare loop '
+                             'of the same arithmetic and memory traffic')
+    parser.add_argument('--startup', action='store_true',
+                        help='from import to the first step, without and with kept kernels')
+    parser.add_argument('--guard', metavar='F',
+                        help='compare ratios to the bare loop with the last record in F of a '
+                             'processor like this; exit code 1 where one is much larger')
+    parser.add_argument('--record', action='store_true',
+                        help='add what --guard measures to its file')
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -59,6 +69,12 @@ def run(arguments: argparse.Namespace) -> int:
         return _recorder(arguments)
     if arguments.options:
         return _options(parameters if arguments.config else None, arguments.duration)
+    if arguments.profile:
+        return _profile(parameters)
+    if arguments.startup:
+        return _startup()
+    if arguments.guard:
+        return _guard(Path(arguments.guard), arguments.record)
     from hydra_actuator.benchmark import measure_speed
     speed = measure_speed(parameters, arguments.duration)
     print(f'{speed.nodes} nodes, {1.0 / speed.step_time:,.0f} steps per simulated second, '
@@ -142,6 +158,53 @@ def _nodes(arguments: argparse.Namespace) -> int:
                   f'{statistics.mean(node.share for node in nodes):14.1%}'
                   f'{min(node.heard for node in nodes):14.1%}  {verdict}', flush=True)
     return 0
+
+
+def _profile(parameters) -> int:
+    """Print what each stage takes of a step."""
+    from hydra_actuator.stages import measure_stages
+    stages = measure_stages(parameters)
+    total = sum(stages.times.values())
+    print(f'{"microseconds, medians of one run":<32}{"alone":>10}{"part":>8}')
+    for name, took in sorted(stages.times.items(), key=lambda item: -item[1]):
+        print(f'{name:<32}{took * 1e6:10.3f}{took / total:8.1%}')
+    print(f'{"sum of stages, each alone":<32}{total * 1e6:10.3f}')
+    print(f'{"whole step":<32}{stages.step * 1e6:10.3f}')
+    print(f'{"bare loop (the limit)":<32}{stages.limit * 1e6:10.3f}')
+    print(f'plain sweep over limit: {stages.bare_sweep / stages.limit:.2f}; '
+          f'step over limit: {stages.step / stages.limit:.2f}')
+    return 0
+
+
+def _startup() -> int:
+    """Print what a start takes, cold and warm."""
+    from hydra_actuator.startup import measure_startup
+    cold, warm = measure_startup()
+    print(f'{"processor time [s]":<32}{"cold":>10}{"warm":>10}')
+    for name, took in cold.times.items():
+        print(f'{name:<32}{took:10.2f}{warm.times[name]:10.2f}')
+    print(f'{"from start to first step":<32}{cold.total:10.2f}{warm.total:10.2f}')
+    print(f'{"the same by the clock [s]":<32}{cold.elapsed:10.2f}{warm.elapsed:10.2f}')
+    print(f'{"largest memory [MB]":<32}{cold.memory:10.0f}{warm.memory:10.0f}')
+    return 0
+
+
+def _guard(file: Path, record: bool) -> int:
+    """Print ratios beside the last ones; return 1 where one has grown too much."""
+    from hydra_actuator import guard
+    measured = guard.measure()
+    before = guard.last(guard.read(file), measured.processor)
+    slower = 0
+    print(f'{measured.processor}; ratios to the bare loop')
+    for name, ratio in measured.ratios.items():
+        old = before.ratios.get(name) if before else None
+        worse = old is not None and ratio > guard.TOLERANCE * old
+        slower += worse
+        told = f'{old:8.2f} at {before.commit}' if old is not None else '  no record'
+        print(f'{name:<18}{ratio:8.2f}{told}{"  SLOWER" if worse else ""}')
+    if record:
+        guard.append(file, measured)
+    return 1 if slower else 0
 
 
 def _options(parameters, duration: float) -> int:
