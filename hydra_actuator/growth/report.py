@@ -54,14 +54,16 @@ def measure(pieces: int = 40, progress: Callable[[float], None] = lambda share: 
     return Growth(cells, spent, memory, actuators, threads, workers, each)
 
 
-def on_paper(scaling: Scaling, workers: int = MANY) -> tuple[float, float]:
+def on_paper(scaling: Scaling, workers: int = MANY) -> tuple[float, float, float]:
     """
-    Return (most runs per s that one scheduler hands out, shortest run that keeps all busy [s]).
+    Return what so many workers would do with these runs, and where one scheduler ends.
 
-    By the asking process's measured computing time per run, at the fewest workers.
+    (runs per s, part of the workers that is busy with runs, shortest computing time of a run [s]
+    with which all are fed), from computing times alone: the network and the disk cost nothing.
     """
-    asking = float(scaling.asking[0])
-    return 1.0 / asking, workers * asking
+    wanted, most = workers / scaling.worker_time, 1.0 / scaling.asking
+    rate = min(wanted, most)
+    return rate, rate * scaling.run_time / workers, workers * scaling.asking
 
 
 def lines(growth: Growth) -> list[str]:
@@ -82,14 +84,16 @@ def lines(growth: Growth) -> list[str]:
     told += ['', f'memory of a run of {growth.memory.over[-1]:.0f} s into a recording: '
              f'{memory[1] / 2**20:.1f} MiB at the start, {memory[half] / 2**20:.1f} half-way, '
              f'{memory[-1] / 2**20:.1f} at the end']
-    told += ['', f'{"workers":>8}{"runs per s":>12}{"over one":>10}{"busy":>8}'
-             f'{"ms per run":>12}{"asking, ms per run":>20}']
-    for count, rate, busy, asking, run in zip(*growth.workers):
-        told.append(f'{count:8d}{rate:12.2f}{rate / growth.workers.rate[0]:10.2f}{busy:8.0%}'
-                    f'{run * 1e3:12.1f}{asking * 1e3:20.2f}')
-    most, shortest = on_paper(growth.workers)
-    told.append(f'on paper: one scheduler hands out {most:.0f} runs per s; {MANY} workers stay '
-                f'busy with runs of {shortest:.1f} s and more')
+    scaling = growth.workers
+    told += ['', f'{"workers":>8}{"runs per s":>12}{"over one":>10}']
+    told += [f'{count:8d}{rate:12.2f}{rate / scaling.rate[0]:10.2f}'
+             for count, rate in zip(scaling.workers, scaling.rate)]
+    told.append(f'computing time per run: {scaling.run_time * 1e3:.1f} ms of its own, '
+                f'{scaling.worker_time * 1e3:.1f} ms of a worker, '
+                f'{scaling.asking * 1e3:.2f} ms of client and scheduler')
+    rate, busy, shortest = on_paper(scaling)
+    told.append(f'on paper, {MANY} workers and one scheduler: {rate:.0f} of these runs per s, '
+                f'{busy:.0%} of each worker in runs; all are fed by runs of {shortest:.1f} s')
     return told
 
 

@@ -48,8 +48,26 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator['Client']:
                 Client(scheduler, timeout=PATIENCE, set_as_default=False))
         except (OSError, ValueError) as error:
             raise InputError(f'no scheduler answers at {scheduler}: {error}') from error
+        _refuse_other_versions(client)
         client.register_plugin(_leave_ctrl_c(), name='leave_ctrl_c')
         yield client
+
+
+def _refuse_other_versions(client: 'Client') -> None:
+    """Raise InputError where a worker lacks this package, or has another version of it."""
+    found = client.run(version, on_error='return')
+    for address, answer in found.items():
+        if isinstance(answer, Exception):
+            reason = ' '.join(str(answer).split())[:200]
+            raise InputError(f'worker {address} cannot run sweeps: {reason}')
+        if answer != version():
+            raise InputError(f'worker {address} has hydra_actuator {answer}, not {version()}')
+
+
+def version() -> str:
+    """Return the version of this package here."""
+    import hydra_actuator
+    return hydra_actuator.__version__
 
 
 @contextmanager

@@ -14,10 +14,10 @@ SMALL = Parameters({'solver.cells': 40})
 @pytest.fixture(scope='module')
 def growth():
     spent, memory = over_time(0.5, SMALL)
-    scaling = Scaling(*np.array([[1, 2], [10.0, 19.0], [0.9, 0.85], [2e-3, 2e-3], [0.1, 0.1]]))
+    scaling = Scaling(np.array([1, 2]), np.array([9.0, 17.0]), 0.1, 0.11, 2e-3)
     return Growth(over_cells((50, 400), 5), spent, memory, over_actuators((1, 4), 3, SMALL),
                   over_threads((1, 2), 2, SMALL),
-                  scaling._replace(workers=np.array([1, 2])), 650.0)
+                  scaling, 650.0)
 
 
 def test_a_step_costs_more_with_more_cells_but_not_more_per_cell(growth):
@@ -37,12 +37,13 @@ def test_memory_does_not_grow_with_simulated_time(growth):
 
 
 def test_a_scheduler_feeds_what_its_own_time_per_run_allows(growth):
-    assert on_paper(growth.workers, 1000) == (pytest.approx(500.0), pytest.approx(2.0))
+    assert on_paper(growth.workers, 1000) == pytest.approx((500.0, 0.05, 2.0))
+    assert on_paper(growth.workers, 11) == pytest.approx((100.0, 10.0 / 11.0, 0.022))
 
 
 def test_curves_are_told_and_drawn(growth, tmp_path):
     told = '\n'.join(lines(growth))
     assert 'ns per node' in told
-    assert 'one scheduler hands out 500 runs per s' in told
+    assert '1000 workers and one scheduler: 500 of these runs per s' in told
     draw(growth, tmp_path / 'growth.png')
     assert (tmp_path / 'growth.png').read_bytes().startswith(b'\x89PNG')

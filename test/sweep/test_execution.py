@@ -118,6 +118,14 @@ def test_another_plan_is_refused_by_what_differs(make_plan, where, tmp_path):
               tmp_path, where)
 
 
+def test_workers_of_another_version_are_refused(make_plan, where, tmp_path, monkeypatch):
+    import hydra_actuator
+    monkeypatch.setattr(hydra_actuator, '__version__', '99')
+    with pytest.raises(InputError, match=r'worker tcp://\S+ has hydra_actuator \S+, not 99'):
+        sweep(make_plan(MASS, count=2), tmp_path, where)
+    assert lines(tmp_path) == []
+
+
 def test_a_directory_of_something_else_is_left_alone(make_plan, where, tmp_path):
     (tmp_path / 'thesis.txt').write_text('years of work')
     with pytest.raises(InputError, match='is not empty and holds no sweep'):
