@@ -36,7 +36,7 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator['Client']:
     with ExitStack() as stack:
         stack.enter_context(dask.config.set({
             'distributed.comm.timeouts.connect': f'{PATIENCE:g}s',
-            'distributed.worker.daemon': True, 'distributed.scheduler.worker-saturation': 1.5}))
+            'distributed.worker.daemon': True, 'distributed.scheduler.worker-saturation': 1.0}))
         if scheduler is None:
             count = workers or len(os.sched_getaffinity(0))
             with _without_ctrl_c():

@@ -2,27 +2,29 @@
 """
 A sweep from its plan to its tables, over Dask.
 
-A few runs per worker are under way at a time, so that a scheduler holds few and Ctrl-C waits for
-few; what ends goes into the journal at once. Runs that are in it are not done again.
+A few chunks of runs per worker are under way at a time, so that a scheduler holds few and Ctrl-C
+waits for few; what ends goes into the journal at once. Runs that are in it are not done again.
 """
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
 import queue
+import time
 from typing import NamedTuple, TYPE_CHECKING
 import uuid
 
 from hydra_actuator.interruption import Interruption
+from hydra_actuator.sweep.chunks import Chunks
 from hydra_actuator.sweep.cluster import connected
 from hydra_actuator.sweep.journal import finished, Journal, read_journal
 from hydra_actuator.sweep.plan import Plan, settle
-from hydra_actuator.sweep.run import LOST, Outcome, run_one
+from hydra_actuator.sweep.run import Drive, LOST, Outcome, run_one
 from hydra_actuator.sweep.tables import write_tables
 
 if TYPE_CHECKING:
     from distributed import Client
 
-AHEAD = 3               # runs under way per worker
+AHEAD = 3               # chunks under way per worker
 LEAST_AHEAD = 8
 WAIT = 0.2              # [s] between looks for Ctrl-C
 
@@ -65,35 +67,51 @@ def sweep(plan: Plan, directory: Path, where: Where = HERE, again: bool = False,
 def _outcomes(client: 'Client', plan: Plan, runs: list[int],
               interruption: Interruption) -> Iterator[Outcome]:
     """Yield the outcomes of runs as they end."""
-    base, ended = plan.base.changed(), queue.SimpleQueue()
-    waiting, under_way, ours = iter(runs), {}, uuid.uuid4().hex
-    room = max(LEAST_AHEAD, AHEAD * sum(client.nthreads().values()))
+    workers = sum(client.nthreads().values())
+    chunks, room = Chunks(runs, workers), max(LEAST_AHEAD, AHEAD * workers)
+    base, ended, ours = plan.base.changed(), queue.SimpleQueue(), uuid.uuid4().hex
+    under_way = {}
     try:
         while True:
-            while len(under_way) < room and (run := next(waiting, None)) is not None:
-                future = client.submit(run_one, run, base, plan.changes(run), plan.drive,
-                                       key=f'run-{run}-{ours}')
-                under_way[run] = future
-                future.add_done_callback(lambda _, run=run: ended.put(run))
+            while len(under_way) < room and (chunk := chunks.deal()):
+                asked = [(run, plan.changes(run)) for run in chunk]
+                future = client.submit(run_chunk, asked, base, plan.drive,
+                                       key=f'run-{chunk[0]}-{len(chunk)}-{ours}')
+                under_way[chunk] = future
+                future.add_done_callback(lambda _, chunk=chunk: ended.put(chunk))
             if not under_way:
                 return
             interruption.raise_if_asked()
             try:
-                run = ended.get(timeout=WAIT)
+                chunk = ended.get(timeout=WAIT)
             except queue.Empty:
                 continue
-            yield _outcome(run, under_way.pop(run))
+            yield from _ended(chunk, under_way.pop(chunk), chunks)
     finally:
         client.cancel(list(under_way.values()), force=True)
 
 
-def _outcome(run: int, future) -> Outcome:
-    """Return what a future that has ended holds, an error that no run foresees as a failure."""
+def run_chunk(asked: list[tuple[int, dict]], base: dict,
+              drive: Drive) -> tuple[list[Outcome], float]:
+    """Return the outcomes of runs, asked for as (number, changes), and what they took [s]."""
+    began = time.perf_counter()
+    outcomes = [run_one(run, base, changes, drive) for run, changes in asked]
+    return outcomes, time.perf_counter() - began
+
+
+def _ended(chunk: tuple[int, ...], future, chunks: Chunks) -> list[Outcome]:
+    """Return what a chunk gave; one that was lost is given back, unless it is a single run."""
     from distributed.scheduler import KilledWorker
 
     error = future.exception()
     if error is None:
-        return future.result()
+        outcomes, seconds = future.result()
+        chunks.learn(len(chunk), seconds)
+        return outcomes
+    if len(chunk) > 1:
+        chunks.give_back(chunk)
+        return []
+    reason = f'{type(error).__name__}: {" ".join(str(error).split())}'[:300]
     if isinstance(error, KilledWorker):
-        return Outcome(run, LOST, 'its workers died with it', {})
-    return Outcome(run, LOST, f'{type(error).__name__}: {" ".join(str(error).split())}'[:300], {})
+        reason = 'its workers died with it'
+    return [Outcome(chunk[0], LOST, reason, {})]
