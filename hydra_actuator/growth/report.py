@@ -21,7 +21,7 @@ CELLS = (50, 100, 200, 400, 800, 1600, 3200)
 ACTUATORS = (1, 2, 4, 8, 16, 32, 64)
 DURATION = 20.0         # [s] of the run that shows memory
 RUNS = 96
-MANY = 1000             # workers, on paper
+MANY = (10, 100, 1000)  # workers, on paper
 
 
 class Growth(NamedTuple):
@@ -54,18 +54,6 @@ def measure(pieces: int = 40, progress: Callable[[float], None] = lambda share: 
     return Growth(cells, spent, memory, actuators, threads, workers, each)
 
 
-def on_paper(scaling: Scaling, workers: int = MANY) -> tuple[float, float, float]:
-    """
-    Return what so many workers would do with these runs, and where one scheduler ends.
-
-    (runs per s, part of the workers that is busy with runs, shortest computing time of a run [s]
-    with which all are fed), from computing times alone: the network and the disk cost nothing.
-    """
-    wanted, most = workers / scaling.worker_time, 1.0 / scaling.asking
-    rate = min(wanted, most)
-    return rate, rate * scaling.run_time / workers, workers * scaling.asking
-
-
 def lines(growth: Growth) -> list[str]:
     """Return the curves as text."""
     told = [f'{len(os.sched_getaffinity(0))} cores, load average {os.getloadavg()[0]:.1f} after']
@@ -90,10 +78,11 @@ def lines(growth: Growth) -> list[str]:
              for count, rate in zip(scaling.workers, scaling.rate)]
     told.append(f'computing time per run: {scaling.run_time * 1e3:.1f} ms of its own, '
                 f'{scaling.worker_time * 1e3:.1f} ms of a worker, '
-                f'{scaling.asking * 1e3:.2f} ms of client and scheduler')
-    rate, busy, shortest = on_paper(scaling)
-    told.append(f'on paper, {MANY} workers and one scheduler: {rate:.0f} of these runs per s, '
-                f'{busy:.0%} of each worker in runs; all are fed by runs of {shortest:.1f} s')
+                f'{scaling.task_time * 1e3:.2f} ms of client and scheduler per task, '
+                f'{scaling.note_time * 1e3:.3f} ms per run')
+    told += [f'on paper, {many} workers and one scheduler: {rate:.0f} of these runs per s, '
+             f'{busy:.0%} of each worker in runs'
+             for many in MANY for rate, busy in (scaling.on_paper(many),)]
     return told
 
 

@@ -2,10 +2,10 @@
 """
 How a sweep's speed grows with its workers, and what a run costs beside its own computing.
 
-Two costs decide how far it goes: what a worker computes per run beside the run itself (fetching,
-building, reporting), and what the asking process, client and scheduler in one, computes per run,
-which bounds how many workers one scheduler can feed. Both are computing times, so a busy machine
-does not change them much; the rate on the clock wants a machine of its own.
+Three costs decide how far it goes: what a worker computes per run beside the run itself (fetching,
+building, reporting), and what the asking process, client and scheduler in one, computes per task
+and per run. These are computing times, so a busy machine does not change them much; the rate on
+the clock wants a machine of its own.
 """
 
 from collections.abc import Callable
@@ -17,14 +17,17 @@ from typing import NamedTuple
 
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.signals import Sine
+from hydra_actuator.sweep.chunks import AT_LEAST, PER_WORKER
+from hydra_actuator.sweep.cluster import connected
 from hydra_actuator.sweep.design import sample
 from hydra_actuator.sweep.execution import sweep, Where
 from hydra_actuator.sweep.factor import read_factor
+from hydra_actuator.sweep.journal import Journal
 from hydra_actuator.sweep.plan import Plan
-from hydra_actuator.sweep.run import DONE, Drive
+from hydra_actuator.sweep.run import DONE, Drive, Outcome
 import numpy as np
 
-REFUSED = 400       # runs that are refused at once, for what asking costs
+TASKS = 400         # that do nothing, for what asking costs
 
 
 class Scaling(NamedTuple):
@@ -32,15 +35,27 @@ class Scaling(NamedTuple):
     Sweeps of the same runs by so many workers.
 
     rate: runs per second on the clock, after each worker's first; run_time: computing time of a
-    run itself; worker_time: of a worker per run, that in it; asking: of the asking process per
-    run; all [s].
+    run itself; worker_time: of a worker per run, that in it; task_time, note_time: of the asking
+    process per task and per run; all [s].
     """
 
     workers: np.ndarray
     rate: np.ndarray
     run_time: float
     worker_time: float
-    asking: float
+    task_time: float
+    note_time: float
+
+    def on_paper(self, workers: int) -> tuple[float, float]:
+        """
+        Return (runs per s, part of the workers' time that is theirs) of so many workers.
+
+        One scheduler feeds them with chunks as `sweep` deals them; the network costs nothing.
+        """
+        in_chunk = max(1.0, max(AT_LEAST, PER_WORKER * workers) / self.worker_time)
+        most = 1.0 / (self.task_time / in_chunk + self.note_time)
+        rate = min(workers / self.worker_time, most)
+        return rate, rate * self.run_time / workers
 
 
 def over_workers(counts: tuple[int, ...], runs: int, duration: float = 0.1,
@@ -57,18 +72,19 @@ def over_workers(counts: tuple[int, ...], runs: int, duration: float = 0.1,
         if count == counts[0]:
             run_time = measured.run_time
             spent = (measured.workers - few.workers) / (runs - max(counts) - 1)
+            outcomes = measured.outcomes
         progress((k + 1) / (len(counts) + 1))
-    asking = _sweep(_plan(base, 'initial.position=0.2:0.5', REFUSED, duration), 1).asking
-    return Scaling(np.array(counts), np.array(rates), run_time, spent, asking)
+    return Scaling(np.array(counts), np.array(rates), run_time, spent, task_time(),
+                   note_time(outcomes))
 
 
 class _Measured(NamedTuple):
-    """One sweep: runs per s, mean run time, all computing of workers, of asking per run [s]."""
+    """One sweep: runs per s, mean run time, all computing of workers [s], outcomes."""
 
     rate: float
     run_time: float
     workers: float
-    asking: float
+    outcomes: tuple[Outcome, ...]
 
 
 def _plan(base: Parameters, factor: str, runs: int, duration: float) -> Plan:
@@ -79,11 +95,10 @@ def _plan(base: Parameters, factor: str, runs: int, duration: float) -> Plan:
 
 
 def _sweep(plan: Plan, workers: int) -> _Measured:
-    ended, spent = [], []
+    ended = []
 
     def note(_: float) -> None:
         ended.append(time.perf_counter())
-        spent.append(time.process_time())
 
     before = _children()
     with tempfile.TemporaryDirectory() as folder:
@@ -92,7 +107,30 @@ def _sweep(plan: Plan, workers: int) -> _Measured:
     counted = len(ended) - 1 - workers
     times = [one.figures['run_time'] for one in outcomes.values() if one.status == DONE]
     return _Measured(counted / (ended[-1] - ended[workers]), float(np.mean(times or [0.0])),
-                     _children() - before, (spent[-1] - spent[workers]) / counted)
+                     _children() - before, tuple(outcomes.values()))
+
+
+def task_time(tasks: int = TASKS) -> float:
+    """Return what the asking process computes per task [s], of tasks that do nothing."""
+    from distributed import wait
+
+    with connected(None, 1) as client:
+        client.submit(time.time, key='first').result()
+        began = time.process_time()
+        asked = [client.submit(time.time, key=f'nothing-{k}') for k in range(tasks)]
+        wait(asked)
+        client.gather(asked)
+        return (time.process_time() - began) / tasks
+
+
+def note_time(outcomes: tuple[Outcome, ...], times: int = 10) -> float:
+    """Return what it takes to write an outcome into the journal [s]."""
+    with tempfile.TemporaryDirectory() as folder, Journal(Path(folder)) as journal:
+        began = time.process_time()
+        for _ in range(times):
+            for outcome in outcomes:
+                journal.append(outcome)
+        return (time.process_time() - began) / (times * len(outcomes))
 
 
 def _children() -> float:

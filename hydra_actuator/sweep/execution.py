@@ -7,6 +7,7 @@ waits for few; what ends goes into the journal at once. Runs that are in it are 
 """
 
 from collections.abc import Callable, Iterator
+import itertools
 from pathlib import Path
 import queue
 import time
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 AHEAD = 3               # chunks under way per worker
 LEAST_AHEAD = 8
 WAIT = 0.2              # [s] between looks for Ctrl-C
+PATIENCE = 30.0         # [s] for what has ended to be fetched
 
 
 class Where(NamedTuple):
@@ -70,13 +72,13 @@ def _outcomes(client: 'Client', plan: Plan, runs: list[int],
     workers = sum(client.nthreads().values())
     chunks, room = Chunks(runs, workers), max(LEAST_AHEAD, AHEAD * workers)
     base, ended, ours = plan.base.changed(), queue.SimpleQueue(), uuid.uuid4().hex
-    under_way = {}
+    under_way, number = {}, itertools.count()
     try:
         while True:
             while len(under_way) < room and (chunk := chunks.deal()):
                 asked = [(run, plan.changes(run)) for run in chunk]
                 future = client.submit(run_chunk, asked, base, plan.drive,
-                                       key=f'run-{chunk[0]}-{len(chunk)}-{ours}')
+                                       key=f'run-{chunk[0]}-{next(number)}-{ours}')
                 under_way[chunk] = future
                 future.add_done_callback(lambda _, chunk=chunk: ended.put(chunk))
             if not under_way:
@@ -103,11 +105,17 @@ def _ended(chunk: tuple[int, ...], future, chunks: Chunks) -> list[Outcome]:
     """Return what a chunk gave; one that was lost is given back, unless it is a single run."""
     from distributed.scheduler import KilledWorker
 
-    error = future.exception()
-    if error is None:
-        outcomes, seconds = future.result()
-        chunks.learn(len(chunk), seconds)
-        return outcomes
+    try:
+        error = future.exception(timeout=PATIENCE)
+        if error is None:
+            outcomes, seconds = future.result(timeout=PATIENCE)
+            chunks.learn(len(chunk), seconds)
+            return outcomes
+    except TimeoutError:
+        # The worker that has it died before it was fetched, and nobody does it again.
+        future.cancel(force=True)
+        chunks.give_back(chunk)
+        return []
     if len(chunk) > 1:
         chunks.give_back(chunk)
         return []
