@@ -57,7 +57,7 @@ ROOMS = {
     ),
     'growth': (
         {'growth', 'actuator', 'simulate', 'signals', 'sweep', 'parameters', 'analysis'},
-        {'numpy', 'matplotlib'},
+        {'numpy', 'matplotlib', 'distributed'},
     ),
     'peers': (
         {'peers', 'core', 'verification', 'hydra_actuator'},
