@@ -65,7 +65,7 @@ ROOMS = {
     ),
     'sweep': (
         {'sweep', 'actuator', 'one_compiler', 'signals', 'interruption', 'parameters', 'response',
-         'analysis'},
+         'analysis', 'hydra_actuator'},
         {'numpy', 'scipy', 'dask', 'distributed', 'pyarrow', 'xarray', 'SALib'},
     ),
     'testing': (
