@@ -30,6 +30,15 @@ def test_oil_and_gas_agree_on_one_pressure(pressure, exponent, star_exponent):
     assert MODULUS * math.expm1(mu / SPEED) + FLOOR == pytest.approx(star, rel=1e-6, abs=1e-3)
 
 
+@given(st.floats(5e5, 4e7), st.floats(1e-7, 1e-3))
+def test_a_balance_that_stops_early_is_the_one_of_all_rounds(pressure, air_fraction):
+    strength = 0.5 * SPEED * air_fraction * FLOOR
+    waves = (SPEED * math.log1p(pressure / MODULUS), strength / (0.99 * (pressure + FLOOR)))
+    early = gas_balance(waves, strength, FLOOR, OIL, ROUNDS_AT_END)
+    full = gas_balance(waves, strength, FLOOR, OIL, ROUNDS_AT_END + 3)
+    assert early == pytest.approx(full, rel=1e-12)
+
+
 def test_without_gas_the_oil_keeps_its_wave():
     mu, _ = gas_balance((7.0, 0.0), 0.0, FLOOR, OIL, ROUNDS_AT_END)
     assert mu == pytest.approx(7.0, rel=1e-12)

@@ -225,6 +225,15 @@ def test_leakage_keeps_the_mass_of_both_faces(p_1, p_2, velocity, leakage):
         assert ratio * area * (u - velocity) == pytest.approx(flow, rel=LAW, abs=1e-17)
 
 
+@given(pressures, pressures, speeds, st.sampled_from([1e-13, 1e-12, 1e-11]))
+def test_a_leaking_pistons_pressures_are_those_at_its_faces(p_1, p_2, velocity, leakage):
+    this, faces = piston(leakage=leakage), ends(p_1, p_2)
+    p_e, p_f, _, _, u_e, u_f = face_pressures(faces, this, velocity)
+    for end, pressure, outflow in ((faces[0], p_e, u_e), (faces[1], p_f, -u_f)):
+        at_face = MODULUS * math.expm1((end.wave - outflow) / SPEED)
+        assert pressure == pytest.approx(at_face, rel=LAW, abs=LAW * 1e7)
+
+
 def test_piston_without_leakage_moves_with_its_oil():
     *_, u_e, u_f = face_pressures(ends(1e7, 2e7), piston(), 0.7)
     assert (u_e, u_f) == (0.7, 0.7)
