@@ -26,6 +26,7 @@ setup(
         (f'share/{NAME}/config', sorted(glob('config/*'))),
         (f'share/{NAME}/launch', sorted(glob('launch/*.py'))),
         (f'share/{NAME}/examples', sorted(glob('examples/*.py'))),
+        (f'share/{NAME}/examples/design_study', sorted(glob('examples/design_study/*'))),
     ],
     python_requires='>=3.11,<3.14',
     install_requires=[
