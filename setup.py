@@ -38,7 +38,7 @@ setup(
         'test': [
             'control', 'dask[distributed]', 'hypothesis', 'imageio-ffmpeg', 'matplotlib',
             'mcap-ros2-support', 'netCDF4', 'pandas', 'playwright', 'plotly', 'pyarrow', 'pytest',
-            'rich', 'rosbags', 'ruff', 'SALib', 'scipy', 'xarray',
+            'pytest-xdist', 'rich', 'rosbags', 'ruff', 'SALib', 'scipy', 'xarray',
         ],
         'ros': [
             'ros-jazzy-rclpy', 'ros-jazzy-common-interfaces', 'ros-jazzy-rmw-fastrtps-cpp',

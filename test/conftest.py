@@ -5,10 +5,17 @@ import os
 import shutil
 import subprocess
 
+from hypothesis import HealthCheck, settings
 import pytest
 
 # Read when a message is first imported, here and in the processes that tests start.
 os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
+
+
+# How long an example takes says nothing here.
+settings.register_profile(
+    'untimed', deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile('untimed')
 
 
 @pytest.fixture
