@@ -9,9 +9,11 @@ from dataclasses import replace
 import io
 from pathlib import Path
 import shutil
+import time
 
-from hydra_actuator.analysis.report import report_page
+from hydra_actuator.analysis.report import report_page, write_report
 from hydra_actuator.analysis.series import Report
+from hydra_actuator.cli.main import main
 import numpy as np
 import pytest
 
@@ -20,7 +22,7 @@ NAMES = ('chromium', 'chromium-browser', 'google-chrome', 'google-chrome-stable'
 # Surfaces need WebGL, which software gives where there is no graphics card.
 OPTIONS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic',
            '--disable-background-networking', '--disable-component-update', '--disable-sync']
-PATIENCE = 120_000      # [ms] for a page to be drawn on a busy machine
+PATIENCE = 480_000      # [ms] for a page to be drawn on a busy machine
 DESK, PHONE = {'width': 1280, 'height': 900}, {'width': 390, 'height': 844}
 PART = 4000             # [px] of a page in one screenshot
 DARKEST, LIGHTEST = 60, 200     # of 255: what is a dark ground, and a light one
@@ -45,6 +47,7 @@ class Opened:
 
     def __init__(self, browser, path, scheme, size):
         self._context = browser.new_context(viewport=size, color_scheme=scheme)
+        self._context.set_default_timeout(PATIENCE)
         self.tab = self._context.new_page()
         self.complaints, self.requests = [], []
         self.tab.on('console', self._listen)
@@ -241,3 +244,27 @@ def test_a_comparison_on_a_phone_in_the_dark(open_page, eventful, make_run):
     page.keep('comparison_phone_dark')
     check_drawn(page, PHONE['width'])
     check_ground(page, dark=True)
+
+
+@pytest.mark.soak
+def test_a_recording_of_ten_minutes_opens_like_one_of_ten_seconds(chromium, tmp_path, capsys):
+    sizes = {}
+    for duration in (10, 600):
+        recording, path = tmp_path / f'run_{duration}', tmp_path / f'run_{duration}.html'
+        assert main(['simulate', '--sine', '50', '--duration', str(duration),
+                     '-o', str(recording)]) == 0
+        begin = time.process_time()
+        write_report(recording, path)
+        spent, sizes[duration] = time.process_time() - begin, path.stat().st_size
+        page = Opened(chromium, path, 'light', DESK)
+        page.wait('performance.getEntriesByName("all pictures").length')
+        first, every = (page.ask('(name) => performance.getEntriesByName(name)[0].startTime', name)
+                        for name in ('first picture', 'all pictures'))
+        assert page.complaints == []
+        page.close()
+        with capsys.disabled():
+            print(f'\n{duration} s: {sizes[duration] / 1e6:.1f} MB, {spent:.1f} s of a processor '
+                  f'to write; in the browser the first picture after {first / 1e3:.1f} s, all '
+                  f'after {every / 1e3:.1f} s')
+    # Most of either is plotly.js; lines of any length have a budget of points.
+    assert sizes[600] < 1.5 * sizes[10] < 20e6

@@ -168,10 +168,12 @@
   async function drawAll() {
     for (const figure of page.figures) {
       await draw(figure);
+      if (!document.body.dataset.drawn) performance.mark('first picture');
       document.body.dataset.drawn = Number(document.body.dataset.drawn || 0) + 1;
       // Let the browser show what is there and take input before the next one.
       await new Promise((resume) => setTimeout(resume));
     }
+    performance.mark('all pictures');
   }
 
   dark.addEventListener('change', () => {
