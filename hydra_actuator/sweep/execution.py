@@ -7,6 +7,7 @@ waits for few; what ends goes into the journal at once. Runs that are in it are 
 """
 
 from collections.abc import Callable, Iterator
+from concurrent.futures import CancelledError
 import itertools
 from pathlib import Path
 import queue
@@ -111,7 +112,7 @@ def _ended(chunk: tuple[int, ...], future, chunks: Chunks) -> list[Outcome]:
             outcomes, seconds = future.result(timeout=PATIENCE)
             chunks.learn(len(chunk), seconds)
             return outcomes
-    except TimeoutError:
+    except (TimeoutError, CancelledError):
         # The worker that has it died before it was fetched, and nobody does it again.
         future.cancel(force=True)
         chunks.give_back(chunk)
