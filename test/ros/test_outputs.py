@@ -41,7 +41,8 @@ class Outlet:
         self.outputs.encoder = self.outputs.encoder_for(('piston', 'valve'))
 
     def push(self, count, inputs=(0.0, 0.0, 0.0)):
-        for number in range(self.ring._written, self.ring._written + count):
+        written = int(self.ring.memory.written[0]['ticks'])
+        for number in range(written, written + count):
             row = np.arange(self.channels.width) + number
             self.ring.push(number, START + number * 1_000_000, max(0, number - 1), inputs, row)
 
