@@ -76,10 +76,10 @@ def test_rows_have_the_bits_stamps_the_grid_and_commands_act_from_the_next_tick_
     ticks = bench.stopped()
     assert_solved(bench, ticks)
     assert [tick.number for tick in ticks] == list(range(len(ticks)))
-    inputs = [tuple(tick.inputs) for tick in ticks]
-    assert list(dict.fromkeys(inputs))[::2] == [(0.0, 0.0, 0.0), (-0.25, -0.25, -300.0)] or (
-        list(dict.fromkeys(inputs)) == [
-            (0.0, 0.0, 0.0), (0.5, 0.5, -300.0), (-0.25, -0.25, -300.0)])
+    inputs = dict.fromkeys(tuple(tick.inputs) for tick in ticks)
+    # a tick may have come between the command and the load
+    inputs.pop((0.5, 0.5, 0.0), None)
+    assert list(inputs) == [(0.0, 0.0, 0.0), (0.5, 0.5, -300.0), (-0.25, -0.25, -300.0)]
     stamps = np.diff([tick.stamp for tick in ticks])
     assert np.all(stamps % PERIOD_NS == 0) and np.all(stamps > 0)
     slip = round(bench.pacer.slip * 1e9)
@@ -169,8 +169,8 @@ def test_it_ticks_while_another_thread_keeps_the_interpreter():
     bench.plant.start()
     bench.until_ticks(3)
     before = bench.pacer.ticks
-    # one call that never gives the interpreter up
-    sorted(range(2_000_000), key=lambda number: -number) and sum(range(30_000_000))
+    # one call that never gives the interpreter up; a plant in Python stands still meanwhile
+    sum(range(30_000_000))
     after = bench.pacer.ticks
     assert after > before + 20
     bench.stopped()
