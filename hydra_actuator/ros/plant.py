@@ -4,9 +4,9 @@ The actuator in a thread of its own, ticking as a clock source says.
 
 A tick: wait for the grant, note the command that holds now, solve the period that ends now with
 the command of the grant, or else the one noted a tick before (causal: what is known at an instant
-acts from it on), put the row into the ring. In real time a compiled loop ticks in
-its place while nothing else is due. The thread never publishes, logs or writes. Whatever else
-happens to the plant (a parameter, the supply) is an order, carried out between two ticks.
+acts from it on), put the row into the ring. In real time a compiled loop ticks in its place while
+nothing else is due. The thread never publishes, logs or writes. Whatever else happens to the plant
+(a parameter, the supply) is an order, carried out between two ticks.
 """
 
 from collections import deque
