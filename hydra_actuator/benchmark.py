@@ -54,6 +54,21 @@ def repeat_sweep(waves, new_waves, mesh, passes, count):
         sweep(waves, new_waves, mesh, 1.0, passes)
 
 
+def swept(actuator: Actuator) -> tuple[tuple, tuple, tuple]:
+    """Return (waves, new waves, mesh) of an actuator, copies but for the mesh."""
+    model, state = actuator._model, actuator._state
+    waves = (state.wave_p.copy(), state.wave_q.copy())
+    return (waves, (waves[0].copy(), waves[1].copy()),
+            (model.courant, model.slope, model.friction))
+
+
+def processor_time(function: Callable, *arguments) -> float:
+    """Return the processor time [s] of a call in this thread."""
+    began = time.thread_time()
+    function(*arguments)
+    return time.thread_time() - began
+
+
 def measure_speed(parameters: Parameters | None = None, duration: float = 2.0) -> Speed:
     """
     Time the actuator on a full-stroke sine of 50 Hz, on one core.
@@ -61,10 +76,7 @@ def measure_speed(parameters: Parameters | None = None, duration: float = 2.0) -
     duration: simulated time [s] to spread over the pieces, after a warm-up of 50 ms.
     """
     actuator = Actuator(parameters)
-    model, state = actuator._model, actuator._state
-    fields = (state.wave_p.copy(), state.wave_q.copy())
-    bare = (fields, (fields[0].copy(), fields[1].copy()),
-            (model.courant, model.slope, model.friction), actuator._passes)
+    bare = (*swept(actuator), actuator._passes)
     repeat_sweep(*bare, 1)
     drive(actuator, math.ceil(WARM_UP / actuator.period))
     steps = PIECE * actuator.steps_per_period
@@ -77,7 +89,7 @@ def measure_speed(parameters: Parameters | None = None, duration: float = 2.0) -
         times.append((ended - began) / steps)
         bare_times.append((time.perf_counter() - ended) / steps)
     return Speed(np.sort(times), np.sort(bare_times), actuator.step_time,
-                 int(np.sum(state.last + 1 + model.moving)))
+                 int(np.sum(actuator._state.last + 1 + actuator._model.moving)))
 
 
 def measure_options(parameters: Parameters | None = None, duration: float = 1.0,

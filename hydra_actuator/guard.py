@@ -12,10 +12,9 @@ import math
 from pathlib import Path
 import statistics
 import subprocess
-import time
 
 from hydra_actuator.actuator import Actuator
-from hydra_actuator.benchmark import drive, repeat_sweep, WARM_UP
+from hydra_actuator.benchmark import drive, processor_time, repeat_sweep, swept, WARM_UP
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.parameters.options import EVERYTHING
 from hydra_actuator.stages import repeat_limit
@@ -44,10 +43,8 @@ def measure() -> Record:
     for actuator in actuators.values():
         drive(actuator, math.ceil(WARM_UP / actuator.period))
     plain = actuators['step, paper']
-    model, state, count = plain._model, plain._state, TICKS * plain.steps_per_period
-    field = (state.wave_p.copy(), state.wave_q.copy())
-    new = (state.new_p.copy(), state.new_q.copy())
-    mesh = (model.courant, model.slope, model.friction)
+    count = TICKS * plain.steps_per_period
+    field, new, mesh = swept(plain)
     works = {
         'sweep': lambda: repeat_sweep(field, new, mesh, plain._passes, count),
         **{name: lambda actuator=actuator: drive(actuator, TICKS)
@@ -56,9 +53,9 @@ def measure() -> Record:
     repeat_sweep(field, new, mesh, plain._passes, 1)
     ratios = {name: [] for name in works}
     for _ in range(PIECES):
-        limit = _clock(lambda: repeat_limit(field, new, mesh, count))
+        limit = processor_time(repeat_limit, field, new, mesh, count)
         for name, work in works.items():
-            ratios[name].append(_clock(work) / limit)
+            ratios[name].append(processor_time(work) / limit)
     return Record(_commit(), llvmlite.binding.get_host_cpu_name(),
                   {name: round(statistics.median(column), 2) for name, column in ratios.items()})
 
@@ -79,12 +76,6 @@ def append(file: Path, record: Record) -> None:
     """Add a record to a file."""
     with file.open('a') as stream:
         stream.write(json.dumps(asdict(record)) + '\n')
-
-
-def _clock(work) -> float:
-    began = time.thread_time()
-    work()
-    return time.thread_time() - began
 
 
 def _commit() -> str:

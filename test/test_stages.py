@@ -1,8 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """The profile of a step: that its stages are those of the step."""
 
+import copy
+
+from hydra_actuator.actuator import Actuator
+from hydra_actuator.benchmark import drive, processor_time
 from hydra_actuator.parameters import Parameters
-from hydra_actuator.stages import measure_stages
+from hydra_actuator.stages import (
+    CAVITIES,
+    LOWEST,
+    measure_stages,
+    MEMORY,
+    NAMES,
+    NOTHING,
+    repeat_stage,
+)
 import pytest
 
 
@@ -22,3 +34,20 @@ def test_the_stages_make_up_the_step_but_for_what_overlaps(stages):
 
 def test_no_sweep_is_faster_than_the_bare_loop(stages):
     assert stages.step > stages.bare_sweep > 0.8 * stages.limit > 0.0
+
+
+def test_no_stage_is_left_out_by_the_compiler():
+    actuator = Actuator(Parameters().replace({'solver.cells': 100}))
+    drive(actuator, 10)
+
+    def took(stage, count):
+        state = copy.deepcopy(actuator._state)
+        return processor_time(repeat_stage, actuator._model, state, actuator._inputs,
+                              actuator._passes, stage, count)
+
+    took(NOTHING, 1)
+    many = 20_000
+    nothing = min(took(NOTHING, many) for _ in range(5))
+    for stage in set(range(len(NAMES))) - {CAVITIES, MEMORY, LOWEST, NOTHING}:
+        # an empty turn takes a cycle or two, the least of the stages some twenty
+        assert took(stage, many) > 3.0 * nothing, NAMES[stage]
