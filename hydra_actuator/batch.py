@@ -19,10 +19,9 @@ import re
 import signal
 from typing import NamedTuple
 
-from hydra_actuator.actuator import Actuator
 from hydra_actuator.csv_files import read_csv
 from hydra_actuator.errors import Failure, InputError
-from hydra_actuator.one_compiler import one_compiler
+from hydra_actuator.one_compiler import compile_once
 from hydra_actuator.parameters import load_parameters, ParameterError, Parameters
 from hydra_actuator.parameters.yaml_files import read_scalar
 from hydra_actuator.signals import Signal
@@ -73,8 +72,7 @@ def simulate_batch(runs: list[Run], drive: tuple[Signal, float, float | None], o
     drive: the command, duration [s], rate [Hz] or None, as of `simulate`; workers: processes, one
     per core this process may use if None. KeyboardInterrupt on Ctrl-C: recordings begun are whole.
     """
-    with one_compiler(runs[0].parameters):
-        Actuator(runs[0].parameters)
+    compile_once(runs[0].parameters)
     output.mkdir(parents=True, exist_ok=True)
     count = min(workers or len(os.sched_getaffinity(0)), len(runs))
     told: dict[str, str] = {}
@@ -100,8 +98,7 @@ def _one(run: Run, drive: tuple, output: Path) -> str:
     command, duration, rate = drive
     signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
-        with one_compiler(run.parameters):
-            Actuator(run.parameters)
+        compile_once(run.parameters)
         simulate(run.parameters, command, duration, output, rate)
     except (InputError, Failure) as error:
         return str(error)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Many processes that need the same kernels: one compiles, the others wait and load them."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager, ExitStack
+from contextlib import ExitStack
 import fcntl
 
+from hydra_actuator.actuator import Actuator
 from hydra_actuator.kernels import cache_root
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.parameters.table_hydraulics import LINES
@@ -13,18 +13,16 @@ from hydra_actuator.parameters.table_hydraulics import LINES
 _made: set[tuple] = set()
 
 
-@contextmanager
-def one_compiler(parameters: Parameters) -> Iterator[None]:
+def compile_once(parameters: Parameters) -> None:
     """
-    Let one process of this machine at a time make the first actuator of a kind.
+    Make an actuator if it is this process's first of its kind, one process at a time.
 
-    It compiles the kernels that all others then load, if they share a cache.
+    The first of a machine compiles the kernels that all others then load, if they share a cache.
     """
     kind = (parameters['solver.iterations'], parameters['fluid.cavitation'],
             parameters['fault.enabled'],
             any(parameters[f'{line}.friction'] in ('steady', 'unsteady') for line in LINES))
     if kind in _made:
-        yield
         return
     with ExitStack() as stack:
         try:
@@ -34,7 +32,7 @@ def one_compiler(parameters: Parameters) -> Iterator[None]:
         except OSError:
             # Nowhere to keep kernels: each compiles its own.
             pass
-        yield
+        Actuator(parameters)
     _made.add(kind)
 
 

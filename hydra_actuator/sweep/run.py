@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.channels import Channels
-from hydra_actuator.one_compiler import one_compiler
+from hydra_actuator.one_compiler import compile_once
 from hydra_actuator.parameters import ParameterError, Parameters
 from hydra_actuator.signals import Signal
 from hydra_actuator.sweep.merit import NAMES
@@ -47,8 +47,8 @@ def run_one(run: int, base: dict, changes: dict, drive: Drive) -> Outcome:
     """Return the outcome of a run; base, changes: parameters that differ from the defaults."""
     try:
         parameters = Parameters({**base, **changes})
-        with one_compiler(parameters):
-            actuator = Actuator(parameters)
+        compile_once(parameters)
+        actuator = Actuator(parameters)
         began = time.thread_time()
         figures = {**small_signal(parameters), **_simulated(actuator, drive)}
     except ParameterError as error:
