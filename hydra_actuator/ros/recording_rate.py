@@ -3,9 +3,11 @@
 What the recorder of a real node takes in and writes, and what that costs.
 
     start a node that records -> for some seconds command it at 1 kHz over DDS -> stop it
-    -> compare what it says it took with what its recording holds
+    -> count what its recording holds and what was dropped, beside the ticks the solver told of
 
-The processor time of the writer's thread is its own word, once a second in its status.
+`in` is the sum of what is in the file and what the recorder counted as dropped; that nothing is
+lost before it, the ticks show. The processor time of the writer's thread is its own word, once a
+second in its status.
 """
 
 from dataclasses import dataclass
