@@ -135,7 +135,7 @@ def _newton_step(slopes: np.ndarray, defect: np.ndarray) -> np.ndarray:
     try:
         return np.linalg.solve(slopes, -defect)
     except np.linalg.LinAlgError:
-        return np.linalg.lstsq(slopes, -defect)[0]
+        return np.linalg.lstsq(slopes, -defect, rcond=None)[0]
 
 
 def _slopes(residual, unknown: np.ndarray, defect: np.ndarray, scale: np.ndarray,

@@ -46,8 +46,9 @@ def test_no_stage_is_left_out_by_the_compiler():
                               actuator._passes, stage, count)
 
     took(NOTHING, 1)
-    many = 20_000
-    nothing = min(took(NOTHING, many) for _ in range(5))
-    for stage in set(range(len(NAMES))) - {CAVITIES, MEMORY, LOWEST, NOTHING}:
-        # an empty turn takes a cycle or two, the least of the stages some twenty
-        assert took(stage, many) > 3.0 * nothing, NAMES[stage]
+    called = set(range(len(NAMES))) - {CAVITIES, MEMORY, LOWEST}
+    least = {stage: min(took(stage, 20_000) for _ in range(7)) for stage in called}
+    nothing = least.pop(NOTHING)
+    for stage, time in least.items():
+        # what is left out costs an empty turn; the least of the stages costs two or more
+        assert time > 1.5 * nothing, NAMES[stage]
