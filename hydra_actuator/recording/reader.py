@@ -12,7 +12,7 @@ open too, up to where they were cut off, and so does a lone MCAP file.
 Rows are put together again by `rows`; time counts from the first joint state.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 import json
@@ -103,7 +103,11 @@ class Recording:
     @cached_property
     def rows(self) -> np.ndarray:
         """Observation rows, shape (instants, channels.width)."""
-        return self._state.rows(self.channels, self.time)
+        return self._state.rows(self.channels)
+
+    def columns(self, wanted: Sequence[int]) -> np.ndarray:
+        """Return these columns of `rows` alone, shape (instants, columns), and keep none."""
+        return self._state.rows(self.channels, wanted)
 
     @cached_property
     def commands(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
@@ -129,14 +133,21 @@ class Recording:
     @cached_property
     def field(self) -> np.ndarray:
         """Absolute pressure [Pa] and velocity [m/s], float32, shape (frames, nodes, 2)."""
-        series = self._one('/field', messages.FLOAT32_ARRAY)
-        numbers = series.numbers()[:, 1:]
-        return numbers.reshape(len(numbers), numbers.shape[1] // 2, 2).astype('f4', copy=False)
+        return _frames(self._field.numbers())
+
+    def field_frames(self, chosen: np.ndarray | None = None) -> Iterator[np.ndarray]:
+        """
+        Yield some frames of `field` at a time, all or those at ascending places, and keep none.
+
+        A frame is as long as the first one.
+        """
+        for part in self._field.number_blocks(chosen):
+            yield _frames(part.numbers)
 
     @cached_property
     def field_stamps(self) -> np.ndarray:
         """Stamp of each frame [ns], int64."""
-        return self._one('/field', messages.FLOAT32_ARRAY).stamps
+        return self._field.stamps
 
     @cached_property
     def field_time(self) -> np.ndarray:
@@ -182,6 +193,15 @@ class Recording:
                     for stamp, message in zip(stamps, series.decoded())
                 ]
         return [message for _, message in sorted(found, key=lambda pair: pair[0])]
+
+    @cached_property
+    def field_nodes(self) -> int:
+        """How many nodes the first frame of the field has; 0 if there is none."""
+        return next((frames.shape[1] for frames in self.field_frames(np.zeros(1, int))), 0)
+
+    @cached_property
+    def _field(self) -> Series:
+        return self._one('/field', messages.FLOAT32_ARRAY)
 
     @cached_property
     def _state(self) -> StateTopics:
@@ -240,6 +260,12 @@ def _series(files: list[ScannedFile]) -> dict[str, Series]:
                 raise RecordingError(
                     f'{file.path} is damaged: {channel.topic} has no readable schema') from None
             series = found.setdefault(channel.topic, series)
-            for chunk in file.chunks:
-                series.add(chunk, number)
+            for block in file.blocks:
+                series.add(block, number)
     return found
+
+
+def _frames(numbers: np.ndarray) -> np.ndarray:
+    """Return the messages of a field, their times left out, as (frames, nodes, 2)."""
+    values = numbers[:, 1:]
+    return values.reshape(len(values), values.shape[1] // 2, 2).astype('f4', copy=False)

@@ -6,12 +6,15 @@ There is one row per joint state. What no topic carries is NaN: the Mach number,
 fluid.cavitation, and what stands in a slower topic at instants that it left out.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from hydra_actuator.channels import Channels
-from hydra_actuator.recording.series import Series
+from hydra_actuator.recording.series import in_one_pass, Series
 import numpy as np
+
+# Of each topic: columns of the rows, and which of its numbers each takes.
+Places = Mapping[Series, list[tuple[int, int]]]
 
 
 @dataclass(frozen=True)
@@ -37,25 +40,45 @@ class StateTopics:
         spools = len(self.joints.first()['name']) - 1 if len(self.joints) else 1
         return Channels(names, spools)
 
-    def rows(self, channels: Channels, time: np.ndarray) -> np.ndarray:
-        """Return the rows, shape (joint states, channels.width); `time` is their first column."""
+    def rows(self, channels: Channels, columns: Sequence[int] | None = None) -> np.ndarray:
+        """
+        Return the rows, shape (joint states, channels.width), each column in one piece.
+
+        columns: those wanted, in this order, by default all. The first, TIME [s], counts from
+        the first joint state.
+        """
         stamps = self.joints.stamps
-        rows = np.full((len(stamps), channels.width), np.nan)
+        wanted = range(channels.width) if columns is None else columns
+        rows = np.full((len(stamps), len(wanted)), np.nan, order='F')
+        into = {column: rows[:, place] for place, column in enumerate(wanted)}
         if not len(stamps):
             return rows
-        joints = self.joints.numbers().reshape(len(stamps), 3, -1)
-        rows[:, channels.TIME] = time
-        rows[:, channels.POSITION] = joints[:, 0, 0]
-        rows[:, channels.VELOCITY] = joints[:, 1, 0]
-        rows[:, channels.EFFORT] = joints[:, 2, 0]
-        rows[:, channels.SPOOL_1] = joints[:, 0, 1]
-        rows[:, channels.SPOOL_2] = joints[:, 0, channels.spools]
-        rows[:, channels.LOAD_FORCE] = self._load_force(stamps)
-        self._enter_sections(rows, channels, stamps)
-        if len(self.cavities):
-            at, chosen = _matching(stamps, self.cavities.stamps)
-            rows[at, channels.cavities] = self.cavities.numbers()[chosen, 1:]
+        if channels.TIME in into:
+            into[channels.TIME][:] = (stamps - stamps[0]) / 1e9
+        if channels.LOAD_FORCE in into:
+            into[channels.LOAD_FORCE][:] = self._load_force(stamps)
+        instants = Instants(stamps)
+        for wanted in self._places(channels):
+            _enter(into, instants, wanted)
         return rows
+
+    def _places(self, channels: Channels) -> list[Places]:
+        """Return columns by topic, in two passes: a pressure topic goes before the sections'."""
+        spools, count = channels.spools, len(channels.section_names)
+        joints = 1 + spools
+        whole = {
+            self.joints: [(channels.POSITION, 0), (channels.VELOCITY, joints),
+                          (channels.EFFORT, 2 * joints), (channels.SPOOL_1, 1),
+                          (channels.SPOOL_2, spools)],
+            self.sections: [(column, 1 + 2 * k + part) for k in range(count)
+                            for part, column in enumerate((channels.pressure.start + k,
+                                                           channels.flow_velocity.start + k))],
+            self.cavities: [(column, 1 + k) for k, column in
+                            enumerate(range(channels.cavities.start, channels.cavities.stop))],
+        }
+        single = {self.pressures[name]: [(channels.pressure.start + k, 0)]
+                  for k, name in enumerate(channels.section_names) if name in self.pressures}
+        return [whole, single]
 
     def _load_force(self, stamps: np.ndarray) -> np.ndarray | float:
         """Return the load [N] in force at each stamp: 0 before the first applied one."""
@@ -66,24 +89,32 @@ class StateTopics:
         loads = np.concatenate([[0.0], self.applied.numbers()[order, -1]])
         return loads[np.searchsorted(changes[order], stamps, 'right')]
 
-    def _enter_sections(self, rows: np.ndarray, channels: Channels, stamps: np.ndarray) -> None:
-        """Enter pressures and velocities; a pressure topic goes before the sections' array."""
-        if len(self.sections):
-            at, chosen = _matching(stamps, self.sections.stamps)
-            values = self.sections.numbers()[chosen]
-            rows[at, channels.pressure] = values[:, 1::2]
-            rows[at, channels.flow_velocity] = values[:, 2::2]
-        for column, name in enumerate(channels.section_names, channels.pressure.start):
-            series = self.pressures.get(name, ())
-            if len(series):
-                at, chosen = _matching(stamps, series.stamps)
-                rows[at, column] = series.numbers()[chosen, 0]
+
+class Instants:
+    """The stamps of rows (N,) [ns], to be found again; they may repeat."""
+
+    def __init__(self, stamps: np.ndarray):
+        self._order = None
+        self._sorted = stamps
+        if (np.diff(stamps) < 0).any():
+            self._order = np.argsort(stamps, kind='stable')
+            self._sorted = stamps[self._order]
+
+    def find(self, stamps: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the rows at these stamps, and which of the stamps each has, last ones first."""
+        first, end = (np.searchsorted(self._sorted, stamps, side) for side in ('left', 'right'))
+        counts = end - first
+        chosen = np.repeat(np.arange(len(stamps)), counts)
+        within = np.arange(len(chosen)) - np.repeat(np.cumsum(counts) - counts, counts)
+        at = first[chosen] + within
+        return (at if self._order is None else self._order[at])[::-1], chosen[::-1]
 
 
-def _matching(wanted: np.ndarray, found: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the places in `wanted` whose stamps occur in `found`, and where they do."""
-    order = np.argsort(found, kind='stable')
-    places = np.minimum(np.searchsorted(found, wanted, sorter=order), len(found) - 1)
-    chosen = order[places]
-    at = np.nonzero(found[chosen] == wanted)[0]
-    return at, chosen[at]
+def _enter(into: Mapping[int, np.ndarray], instants: Instants, wanted: Places) -> None:
+    """Enter the numbers of topics where their stamps are; of equal stamps in a block the first."""
+    for part in in_one_pass(series for series, places in wanted.items()
+                            if any(column in into for column, _ in places)):
+        at, chosen = instants.find(part.stamps)
+        for column, number in wanted[part.series]:
+            if column in into and number < part.numbers.shape[1]:
+                into[column][at] = part.numbers[chosen, number]

@@ -3,7 +3,7 @@
 One MCAP file being read, finished or cut off anywhere.
 
 The file is walked record by record from its start, so it needs no summary; where messages lie in
-a chunk is taken from the chunk's indexes, so no message is touched until it is asked for. A chunk
+a chunk is taken from the chunk's indexes, so no message is kept until it is asked for. A chunk
 whose indexes are missing or cut off is walked itself. Any writer's file will do, whatever its
 chunks, compression and indexes; attachments are skipped.
 
@@ -12,11 +12,13 @@ A cut-off end is no error (`finished` says so); a wrong checksum inside is.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 import struct
 import zlib
 
+from hydra_actuator.recording.block import Block, join, JOINED, MappedFile
 from hydra_actuator.recording.errors import RecordingError
 from hydra_actuator.recording.opening import CHECKSUMS, MAGIC, parts_before
 from mcap.data_stream import ReadDataStream
@@ -26,18 +28,12 @@ from mcap.records import Channel, Metadata, Schema
 import numpy as np
 
 RECORD_HEAD = struct.Struct('<BQ')
+_INDEX_HEAD = struct.Struct('<HI')
 CHUNK_HEAD = struct.Struct('<QQQII')
 
 # No writer makes chunks that large [byte].
 _LARGEST_CHUNK = 1 << 31
-
-
-@dataclass
-class Chunk:
-    """Records that lie together; `offsets` are those of its messages by channel id."""
-
-    content: np.ndarray
-    offsets: dict[int, np.ndarray] = field(default_factory=dict)
+_SMALL = np.iinfo(np.int32).max
 
 
 @dataclass
@@ -48,22 +44,21 @@ class ScannedFile:
     schemas: dict[int, Schema] = field(default_factory=dict)
     channels: dict[int, Channel] = field(default_factory=dict)
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
-    chunks: list[Chunk] = field(default_factory=list)
+    blocks: list[Block] = field(default_factory=list)
     finished: bool = False
 
 
 def scan(path: Path) -> ScannedFile:
     """Walk a file; RecordingError if it is none, or damaged before its end."""
     try:
-        size = path.stat().st_size
-        content = np.asarray(np.memmap(path, np.uint8, 'r')) if size else np.empty(0, np.uint8)
+        file = MappedFile(path)
     except OSError as error:
         raise RecordingError(f'{path} cannot be read: {error.strerror}') from None
-    if content[: len(MAGIC)].tobytes() != MAGIC:
+    if file.bytes[: len(MAGIC)].tobytes() != MAGIC:
         raise RecordingError(f'{path} is not an MCAP file')
     found = ScannedFile(path)
     try:
-        _Walk(found, content).run()
+        _Walk(found, file).run()
     except (struct.error, EndOfFile, ValueError, KeyError) as error:
         raise RecordingError(f'{path} is damaged: {error!r}') from None
     return found
@@ -72,20 +67,21 @@ def scan(path: Path) -> ScannedFile:
 class _Walk:
     """One pass over a file's records, filling a ScannedFile."""
 
-    def __init__(self, found: ScannedFile, content: np.ndarray):
+    def __init__(self, found: ScannedFile, file: MappedFile):
         self._found = found
-        self._content = content
+        self._file = file
+        self._content = file.bytes
         self._outside: dict[int, list[int]] = {}
 
     def run(self) -> None:
-        found, end = self._found, len(self._content)
+        found, end, seen = self._found, len(self._content), 0
         for opcode, start, stop in records(self._content, len(MAGIC)):
             if opcode == Opcode.FOOTER:
                 found.finished = self._content[stop: stop + len(MAGIC)].tobytes() == MAGIC
                 break
             if opcode == Opcode.CHUNK:
-                found.chunks.append(self._chunk(start, stop))
-            elif opcode == Opcode.MESSAGE_INDEX and found.chunks:
+                found.blocks.append(self._chunk(start, stop))
+            elif opcode == Opcode.MESSAGE_INDEX and found.blocks:
                 self._index(start, stop)
             elif opcode == Opcode.MESSAGE:
                 number = int.from_bytes(self._content[start: start + 2].tobytes(), 'little')
@@ -93,49 +89,60 @@ class _Walk:
             else:
                 self._definition(self._content, opcode, start, stop)
             end = stop
+            if end - seen > JOINED:
+                self._file.forget(seen, end)
+                seen = end
         self._complete(end)
+        self._file.forget(0, len(self._content))
 
     def _complete(self, end: int) -> None:
         """Walk the chunks whose indexes are missing or may be, and add what lay in none."""
         found = self._found
-        for number, chunk in enumerate(found.chunks):
-            last = number == len(found.chunks) - 1 and not found.finished
-            if last or not chunk.offsets or not chunk.offsets.keys() <= found.channels.keys():
-                self._walk_chunk(chunk)
+        for number, block in enumerate(found.blocks):
+            last = number == len(found.blocks) - 1 and not found.finished
+            if last or not block.offsets or not block.offsets.keys() <= found.channels.keys():
+                self._walk_chunk(block)
+        found.blocks = join(found.blocks)
         if self._outside:
-            offsets = {key: np.array(value) for key, value in self._outside.items()}
-            found.chunks.append(Chunk(self._content[:end], offsets))
+            outside = Block(self._file, 0, end)
+            outside.offsets = {key: np.array(value) for key, value in self._outside.items()}
+            found.blocks.append(outside)
 
-    def _chunk(self, start: int, stop: int) -> Chunk:
-        body = self._content[start:stop]
-        *_, size, crc, length = CHUNK_HEAD.unpack_from(body)
-        at = CHUNK_HEAD.size + length
-        compression = body[CHUNK_HEAD.size: at].tobytes().decode()
+    def _chunk(self, start: int, stop: int) -> Block:
+        *_, size, crc, length = CHUNK_HEAD.unpack_from(self._content[start:stop])
+        at = start + CHUNK_HEAD.size + length
+        compression = self._content[start + CHUNK_HEAD.size: at].tobytes().decode()
+        block = Block(self._file, at + 8, stop, size,
+                      partial(decompressed, compression, size=size) if compression else None)
         try:
-            content = decompressed(compression, body[at + 8:], size)
+            with block.opened() as content:
+                sound = len(content) == size and (not crc or zlib.crc32(content) == crc)
         except RecordingError as error:
             raise RecordingError(f'{self._found.path} is damaged: {error}') from None
-        if len(content) != size or (crc and zlib.crc32(content) != crc):
+        if not sound:
             raise RecordingError(f'{self._found.path} is damaged: checksum of the chunk at byte '
                                  f'{start - RECORD_HEAD.size}')
-        return Chunk(content)
+        return block
 
     def _index(self, start: int, stop: int) -> None:
-        channel, size = struct.unpack_from('<HI', self._content, start)
-        pairs = np.frombuffer(self._content[start + 6: stop].tobytes(), '<u8', size // 8)
+        channel, size = _INDEX_HEAD.unpack_from(self._content, start)
         if size:
-            offsets = pairs[1::2].astype(np.int64)
-            self._found.chunks[-1].offsets[channel] = np.sort(offsets)
+            pairs = np.frombuffer(self._content, '<i8', size // 8, start + _INDEX_HEAD.size)
+            offsets = np.sort(pairs[1::2])
+            if 0 <= offsets[0] and offsets[-1] <= _SMALL:
+                offsets = offsets.astype(np.int32)
+            self._found.blocks[-1].offsets[channel] = offsets
 
-    def _walk_chunk(self, chunk: Chunk) -> None:
+    def _walk_chunk(self, block: Block) -> None:
         offsets: dict[int, list[int]] = {}
-        for opcode, start, stop in records(chunk.content, 0):
-            if opcode == Opcode.MESSAGE:
-                number = int.from_bytes(chunk.content[start: start + 2].tobytes(), 'little')
-                offsets.setdefault(number, []).append(start - RECORD_HEAD.size)
-            else:
-                self._definition(chunk.content, opcode, start, stop)
-        chunk.offsets = {number: np.array(found) for number, found in offsets.items()}
+        with block.opened() as content:
+            for opcode, start, stop in records(content, 0):
+                if opcode == Opcode.MESSAGE:
+                    number = int.from_bytes(content[start: start + 2].tobytes(), 'little')
+                    offsets.setdefault(number, []).append(start - RECORD_HEAD.size)
+                else:
+                    self._definition(content, opcode, start, stop)
+        block.offsets = {number: np.array(found) for number, found in offsets.items()}
 
     def _definition(self, content: np.ndarray, opcode: int, start: int, stop: int) -> None:
         """Keep a schema, a channel or a metadata record; of repeated ones the first."""

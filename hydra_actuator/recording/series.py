@@ -2,18 +2,21 @@
 """
 The messages of one topic, as arrays where they allow it.
 
-The messages of a running actuator have one layout from first to last, numbers at their ends:
-such a topic is gathered into one matrix of bytes and seen as numbers, without decoding a
-message. Any other topic is decoded message by message.
+The messages of a running actuator have one layout from first to last: such a topic is seen as
+numbers without decoding a message. Any other topic is decoded message by message. The file is
+read block by block, and of a topic no more than was asked for is kept.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cached_property
+from heapq import merge
+from operator import attrgetter
+from typing import NamedTuple
 
-from hydra_actuator.recording import messages
-from hydra_actuator.recording.cdr import Codec, HEADER
+from hydra_actuator.recording.block import Block
+from hydra_actuator.recording.cdr import Codec
 from hydra_actuator.recording.errors import RecordingError
-from hydra_actuator.recording.scan import Chunk
+from hydra_actuator.recording.layout import gather, Layout, numbers_of
 from mcap.opcode import Opcode
 import numpy as np
 
@@ -23,8 +26,14 @@ _HEAD = np.dtype([
 ])
 _REST_OF_HEAD = _HEAD.itemsize - 9
 
-# Above this size [byte] copying message by message is faster than gathering byte by byte.
-_LARGE = 256
+
+class Numbers(NamedTuple):
+    """Some messages of a series: stamps [ns], numbers (messages, n), where in the file."""
+
+    series: 'Series'
+    stamps: np.ndarray
+    numbers: np.ndarray
+    place: tuple[int, int]
 
 
 class Series:
@@ -34,40 +43,37 @@ class Series:
         self.topic = topic
         self.type = type_name
         self._definition = definition
-        self._parts: list[tuple[np.ndarray, np.ndarray]] = []
+        self._parts: list[tuple[Block, np.ndarray]] = []
 
     def __len__(self) -> int:
         return sum(len(offsets) for _, offsets in self._parts)
 
-    def add(self, chunk: Chunk, channel: int) -> None:
-        """Append the messages a chunk holds for a channel."""
-        if channel in chunk.offsets:
-            offsets = chunk.offsets[channel]
-            if offsets.max() > len(chunk.content) - _HEAD.itemsize:
+    def add(self, block: Block, channel: int) -> None:
+        """Append the messages a block holds for a channel."""
+        if channel in block.offsets:
+            offsets = block.offsets[channel]
+            if offsets.min() < 0 or offsets.max() > block.size - _HEAD.itemsize:
                 raise RecordingError(f'damaged: the index of {self.topic} points nowhere')
-            self._parts.append((chunk.content, offsets))
+            self._parts.append((block, offsets))
 
-    @cached_property
+    @property
     def stamps(self) -> np.ndarray:
         """Log times [ns], int64."""
-        return self._heads['log'].astype(np.int64)
+        return self._times[0]
 
-    @cached_property
+    @property
     def publish_stamps(self) -> np.ndarray:
         """Publish times [ns], int64."""
-        return self._heads['publish'].astype(np.int64)
+        return self._times[1]
 
     def payloads(self) -> Iterator[bytes]:
         """Yield the messages as they were recorded."""
-        sizes = iter(self._sizes.tolist())
-        for content, offsets in self._parts:
-            for start in (offsets + _HEAD.itemsize).tolist():
-                yield content[start: start + next(sizes)].tobytes()
+        for part in self._read():
+            yield from part.payloads()
 
     def decoded(self) -> Iterator[dict]:
         """Yield the messages as dictionaries."""
-        decode = Codec(self.type, self._definition).decode
-        return map(decode, self.payloads())
+        return map(self._codec.decode, self.payloads())
 
     def first(self) -> dict:
         """Return the first message as a dictionary; StopIteration if there is none."""
@@ -82,111 +88,104 @@ class Series:
         velocities, all efforts. Where a message is shorter than others its row ends in NaN.
         TypeError for any other type.
         """
-        if not len(self):
-            return np.empty((0, 0))
-        one_layout = self._numbers_of_one_layout()
-        return self._numbers_one_by_one() if one_layout is None else one_layout
-
-    @cached_property
-    def _heads(self) -> np.ndarray:
-        parts = [_gather(content, offsets, _HEAD.itemsize) for content, offsets in self._parts]
-        joined = np.concatenate(parts) if parts else np.empty((0, _HEAD.itemsize), np.uint8)
-        heads = joined.view(_HEAD)[:, 0]
-        if (heads['opcode'] != Opcode.MESSAGE).any():
-            raise RecordingError(f'damaged: the index of {self.topic} points beside its messages')
-        return heads
-
-    @cached_property
-    def _sizes(self) -> np.ndarray:
-        return self._heads['length'].astype(np.int64) - _REST_OF_HEAD
-
-    def _matrix(self) -> np.ndarray | None:
-        """Return the messages as bytes (count, size), or None if their sizes differ."""
-        sizes = self._sizes
-        if (sizes != sizes[0]).any():
-            return None
-        return np.concatenate([
-            _gather(content, offsets + _HEAD.itemsize, int(sizes[0]))
-            for content, offsets in self._parts
-        ])
-
-    def _numbers_of_one_layout(self) -> np.ndarray | None:
-        """Return the numbers if all messages differ in nothing but stamps and numbers."""
-        first = self.first()
-        blocks = _number_blocks(self.type, first)
-        matrix = self._matrix() if blocks else None
-        if matrix is None or matrix[0, :4].tobytes() != HEADER:
-            return None
-        kind, places = blocks
-        size = matrix.shape[1]
-        same = self._meant(first, size)
-        same[4: 12 if 'header' in first else 4] = False
-        columns = []
-        for from_end, count in places:
-            block = slice(size - from_end, size - from_end + count * kind.itemsize)
-            same[block] = False
-            columns.append(np.ascontiguousarray(matrix[:, block]).view(kind))
-        numbers = np.concatenate(columns, axis=1)
-        if (matrix[:, same] != matrix[0, same]).any():
-            return None
-        expected = _numbers(self.type, first)
-        return numbers if np.array_equal(numbers[0], expected, equal_nan=True) else None
-
-    def _meant(self, message: dict, size: int) -> np.ndarray:
-        """Return which bytes of a message of this size are not padding."""
-        codec = Codec(self.type, self._definition)
-        zeros, ones = (
-            np.frombuffer(codec.encode(message, padding), np.uint8)[:size] for padding in (0, 255)
-        )
-        meant = np.zeros(size, bool)
-        meant[: len(zeros)] = zeros == ones
-        return meant
-
-    def _numbers_one_by_one(self) -> np.ndarray:
-        rows = [_numbers(self.type, message) for message in self.decoded()]
-        result = np.full((len(rows), max(map(len, rows))), np.nan)
-        for target, row in zip(result, rows):
-            target[: len(row)] = row
+        layout = self._layout
+        if layout is None:
+            return _rows([numbers_of(self.type, message) for message in self.decoded()])
+        result, first = np.empty((len(self), layout.count), layout.kind), 0
+        for part in self._read():
+            found = part.numbers(layout)
+            if found is None:
+                return _rows([numbers_of(self.type, message) for message in self.decoded()])
+            result[first: first + len(found)] = found
+            first += len(found)
         return result
 
+    def number_blocks(self, chosen: np.ndarray | None = None) -> Iterator['Numbers']:
+        """
+        Yield the numbers of some messages at a time, of all in the end.
 
-def _gather(content: np.ndarray, starts: np.ndarray, size: int) -> np.ndarray:
-    """Return the bytes (count, size) that begin at each start."""
-    if size <= _LARGE:
-        return content[starts[:, None] + np.arange(size)]
-    joined = b''.join([content[start: start + size].tobytes() for start in starts.tolist()])
-    return np.frombuffer(joined, np.uint8).reshape(len(starts), size)
+        chosen: places of the messages wanted, ascending. The rows are as long as the first
+        message's: longer messages are cut, shorter ones end in NaN.
+        """
+        if not len(self):
+            return
+        layout = self._layout
+        width = layout.count if layout else len(numbers_of(self.type, self.first()))
+        for part in self._read(chosen):
+            found = part.numbers(layout) if layout else None
+            if found is None:
+                found = _rows([numbers_of(self.type, self._codec.decode(payload))
+                               for payload in part.payloads()], width)
+            yield Numbers(self, part.heads['log'].astype(np.int64), found, part.place)
+
+    @cached_property
+    def _codec(self) -> Codec:
+        return Codec(self.type, self._definition)
+
+    @cached_property
+    def _layout(self) -> Layout | None:
+        """The layout of the first message; None if it has none, or there is no message."""
+        return Layout.of(self.type, self._codec, next(self.payloads())) if len(self) else None
+
+    @cached_property
+    def _times(self) -> np.ndarray:
+        """Log and publish times [ns], shape (2, messages)."""
+        result, first = np.empty((2, len(self)), np.int64), 0
+        for part in self._read():
+            last = first + len(part.heads)
+            result[0, first:last], result[1, first:last] = part.heads['log'], part.heads['publish']
+            first = last
+        return result
+
+    def _read(self, chosen: np.ndarray | None = None) -> Iterator['_Part']:
+        """Yield the messages block by block; of each nothing may be kept without a copy."""
+        before = 0
+        for block, offsets in self._parts:
+            mine = offsets
+            if chosen is not None:
+                within = slice(*np.searchsorted(chosen, [before, before + len(offsets)]))
+                mine = offsets[chosen[within] - before]
+            before += len(offsets)
+            if len(mine):
+                with block.opened() as content:
+                    yield _Part(self.topic, content, mine, block.place)
 
 
-def _number_blocks(
-    type_name: str, first: dict
-) -> tuple[np.dtype, list[tuple[int, int]]] | None:
-    """Return the number type and its blocks (bytes from the message's end, count)."""
-    double, single = np.dtype('<f8'), np.dtype('<f4')
-    if type_name == messages.FLOAT64:
-        return double, [(8, 1)]
-    if type_name == messages.FLUID_PRESSURE:
-        return double, [(16, 2)]
-    if type_name in (messages.FLOAT64_ARRAY, messages.FLOAT32_ARRAY):
-        kind = double if type_name == messages.FLOAT64_ARRAY else single
-        count = len(first['data'])
-        return (kind, [(kind.itemsize * count, count)]) if count else None
-    if type_name == messages.JOINT_STATE:
-        count = len(first['name'])
-        full = all(len(first[part]) == count for part in ('position', 'velocity', 'effort'))
-        places = [(24 * count + 16, count), (16 * count + 8, count), (8 * count, count)]
-        return (double, places) if full and count else None
-    return None
+class _Part:
+    """Messages of one topic in one open block."""
+
+    def __init__(self, topic: str, content: np.ndarray, offsets: np.ndarray,
+                 place: tuple[int, int]):
+        self.place = place
+        self._content = content
+        self._starts = offsets + _HEAD.itemsize
+        self.heads = gather(content, offsets, _HEAD.itemsize).view(_HEAD)[:, 0]
+        if (self.heads['opcode'] != Opcode.MESSAGE).any():
+            raise RecordingError(f'damaged: the index of {topic} points beside its messages')
+        self._sizes = self.heads['length'].astype(np.int64) - _REST_OF_HEAD
+        if (self._sizes > len(content) - self._starts).any() or (self._sizes < 0).any():
+            raise RecordingError(f'damaged: the index of {topic} points beside its messages')
+
+    def payloads(self) -> Iterator[bytes]:
+        for start, size in zip(self._starts.tolist(), self._sizes.tolist()):
+            yield self._content[start: start + size].tobytes()
+
+    def numbers(self, layout: Layout) -> np.ndarray | None:
+        """Return the numbers, or None if a message has another layout."""
+        if (self._sizes != layout.size).any():
+            return None
+        return layout.numbers(self._content, self._starts)
 
 
-def _numbers(type_name: str, message: dict) -> list[float]:
-    """Return the numbers of one decoded message."""
-    if type_name == messages.JOINT_STATE:
-        return [*message['position'], *message['velocity'], *message['effort']]
-    if type_name == messages.FLUID_PRESSURE:
-        return [message['fluid_pressure'], message['variance']]
-    if type_name == messages.FLOAT64:
-        return [message['data']]
-    if type_name in (messages.FLOAT64_ARRAY, messages.FLOAT32_ARRAY):
-        return message['data']
-    raise TypeError(f'{type_name} is not made of numbers alone')
+def in_one_pass(wanted: Iterable[Series]) -> Iterator[Numbers]:
+    """Yield the numbers of several topics, reading what they share of a file once."""
+    return merge(*(series.number_blocks() for series in wanted), key=attrgetter('place'))
+
+
+def _rows(found: list[list[float]], width: int | None = None) -> np.ndarray:
+    """Return lists of numbers as rows of one width, by default that of the longest."""
+    width = max(map(len, found), default=0) if width is None else width
+    result = np.full((len(found), width), np.nan)
+    for target, row in zip(result, found):
+        target[: len(row)] = row[:width]
+    return result
