@@ -44,16 +44,16 @@ def void_fraction(series: Series, pressure: np.ndarray) -> np.ndarray:
 def lowest_pressure(series: Series) -> Lowest | None:
     """Return the lowest pressure of all sections and of the field; None without either."""
     found = []
-    if series.pressure.size and np.isfinite(series.pressure).any():
-        tick, k = np.unravel_index(np.nanargmin(series.pressure), series.pressure.shape)
-        found.append(Lowest(float(series.pressure[tick, k]), float(series.time[tick]),
-                            f'at {series.section_names[k]}'))
+    in_sections = series.extreme_pressure('lowest')
+    if in_sections:
+        pressure, tick, k = in_sections
+        found.append(Lowest(pressure, float(series.time[tick]), f'at {series.section_names[k]}'))
     field = series.field
-    if field is not None and np.isfinite(field.pressure).any():
-        frame, node = np.unravel_index(np.nanargmin(field.pressure), field.pressure.shape)
-        found.append(Lowest(
-            float(field.pressure[frame, node]), float(field.time[frame]),
-            f'in {field.labels[node]}, x = {field.positions[node]:.3g} m'))
+    in_field = field and field.lowest_pressure()
+    if in_field:
+        pressure, frame, node = in_field
+        found.append(Lowest(pressure, float(field.time[frame]),
+                            f'in {field.labels[node]}, x = {field.positions[node]:.3g} m'))
     return min(found, default=None)
 
 

@@ -8,6 +8,7 @@ instant. A field over time is reduced to two, the lowest and the highest of ever
 Neglected: what happens between the extremes of one bucket.
 """
 
+from hydra_actuator.analysis.frames import blocks_of, Frames
 import numpy as np
 
 
@@ -53,17 +54,26 @@ def line_samples(values: np.ndarray, budget: int, full_from: int) -> np.ndarray:
     return np.concatenate([head, np.arange(full_from, count)])
 
 
-def bucket_extremes(values: np.ndarray, buckets: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def bucket_extremes(
+    values: np.ndarray | Frames, buckets: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """
     Return (first indices, lowest, highest) of (frames, nodes) values over buckets of frames.
 
     NaN counts only where a whole bucket has nothing else.
     """
-    frames = len(values)
+    frames, nodes = values.shape
     count = min(buckets, frames)
     starts = (np.arange(count) * frames) // max(count, 1)
-    if count == 0:
-        return starts, values[:0], values[:0]
-    lowest = np.fmin.reduceat(values, starts, axis=0)
-    highest = np.fmax.reduceat(values, starts, axis=0)
+    lowest, highest = np.full((2, count, nodes), np.nan, values.dtype)
+    first = 0
+    for block in blocks_of(values):
+        end = first + len(block)
+        # The bucket that this block begins in, and those that begin in it.
+        mine = slice(int(np.searchsorted(starts, first, 'right')) - 1,
+                     int(np.searchsorted(starts, end)))
+        inside = np.maximum(starts[mine] - first, 0)
+        lowest[mine] = np.fmin(lowest[mine], np.fmin.reduceat(block, inside, axis=0))
+        highest[mine] = np.fmax(highest[mine], np.fmax.reduceat(block, inside, axis=0))
+        first = end
     return starts, lowest, highest

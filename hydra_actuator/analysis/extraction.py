@@ -10,6 +10,7 @@ import json
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from hydra_actuator.analysis.frames import Frames, PRESSURE, VELOCITY
 from hydra_actuator.analysis.series import Cavities, Command, Field, Report, Series
 from hydra_actuator.analysis.streamline import piston_faces
 from hydra_actuator.errors import InputError
@@ -25,16 +26,18 @@ def series_of(path: str | Path) -> Series:
     recording = load_recording(path)
     if not len(recording.row_stamps):
         raise InputError(f'{path} holds no joint states: there is nothing to report')
-    rows, channels = recording.rows, recording.channels
-    spools = slice(channels.SPOOL_1, channels.SPOOL_1 + channels.spools)
-    parameters = recorded_parameters(recording)
+    channels, parameters = recording.channels, recorded_parameters(recording)
+    sections, spools = len(channels.section_names), channels.spools
+    first = 3 + spools
+    rows = recording.columns([
+        channels.POSITION, channels.VELOCITY, channels.LOAD_FORCE,
+        *range(channels.SPOOL_1, channels.SPOOL_1 + spools),
+        *range(channels.pressure.start, channels.flow_velocity.stop)])
     return Series(
         name=recording.path.resolve().name, path=recording.path, time=recording.time,
-        position=np.ascontiguousarray(rows[:, channels.POSITION]),
-        velocity=np.ascontiguousarray(rows[:, channels.VELOCITY]),
-        spool=rows[:, spools], load_force=rows[:, channels.LOAD_FORCE],
+        position=rows[:, 0], velocity=rows[:, 1], load_force=rows[:, 2], spool=rows[:, 3:first],
         section_names=channels.section_names, section_positions=_section_positions(recording),
-        pressure=rows[:, channels.pressure], flow_velocity=rows[:, channels.flow_velocity],
+        pressure=rows[:, first: first + sections], flow_velocity=rows[:, first + sections:],
         stamps=recording.row_stamps, field=_field(recording),
         commands=_commands(recording, parameters), diagnostics=_reports(recording),
         send_delay=_send_delay(recording), parameters=parameters,
@@ -76,19 +79,18 @@ def _section_positions(recording: Recording) -> np.ndarray:
 
 def _field(recording: Recording) -> Field | None:
     """Return the field, or None if there is none."""
-    frames = recording.field
-    if not len(frames):
+    time, nodes = recording.field_time, recording.field_nodes
+    if not len(time):
         return None
     places, labels = recording.field_positions, tuple(recording.field_labels)
-    if not len(places) == len(labels) == frames.shape[1]:
+    if not len(places) == len(labels) == nodes:
         raise InputError(
-            f'{recording.path}: its field has {frames.shape[1]} nodes, but positions for '
+            f'{recording.path}: its field has {nodes} nodes, but positions for '
             f'{len(places)} and labels for {len(labels)}'
         )
-    return Field(
-        recording.field_time, places, labels, frames[:, :, 0], frames[:, :, 1],
-        piston_faces(labels), 'the field',
-    )
+    every = np.arange(len(time))
+    pressure, velocity = (Frames(recording, part, every, nodes) for part in (PRESSURE, VELOCITY))
+    return Field(time, places, labels, pressure, velocity, piston_faces(labels), 'the field')
 
 
 def _cavities(recording: Recording) -> Cavities | None:

@@ -80,12 +80,12 @@ def _unit(key: str) -> str:
 
 def _extreme_pressure(series: Series, word: str) -> str:
     """Return the highest or lowest pressure of all sections, where and when."""
-    choose = np.nanargmax if word == 'highest' else np.nanargmin
-    if not np.any(np.isfinite(series.pressure)):
+    found = series.extreme_pressure(word)
+    if found is None:
         return 'none'
-    tick, section = np.unravel_index(choose(series.pressure), series.pressure.shape)
-    value = series.pressure[tick, section] * MEGAPASCAL
-    return f'{value:.4f} MPa abs at {series.section_names[section]}, t = {series.time[tick]:.4f} s'
+    value, tick, section = found
+    return (f'{value * MEGAPASCAL:.4f} MPa abs at {series.section_names[section]}, '
+            f't = {series.time[tick]:.4f} s')
 
 
 def _frequency(series: Series) -> str:

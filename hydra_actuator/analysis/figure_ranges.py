@@ -59,5 +59,6 @@ def _station_extremes(stations: Field, quantity: str, word: str) -> tuple:
     """Return x [m] and the extreme of each station that does not move with the piston."""
     still = ~np.isin(np.arange(len(stations.positions)), stations.faces or ())
     choose = np.fmax if word == 'highest' else np.fmin
-    extremes = choose.reduce(getattr(stations, quantity)[:, still])
-    return stations.positions[still].astype(np.float32), extremes.astype(np.float32)
+    columns = getattr(stations, quantity).T
+    extremes = np.array([choose.reduce(columns[k]) for k in np.flatnonzero(still)], np.float32)
+    return stations.positions[still].astype(np.float32), extremes

@@ -30,11 +30,10 @@ def merits(series: Series, other: Series) -> Rows:
                             for one in (series, other))
             rows.append(_apart(f'pressure {name}', series.time, mine, other.time, theirs,
                                MEGAPASCAL, 'MPa'))
-    pressures = [one.pressure[np.isfinite(one.pressure)] for one in (series, other)]
-    if all(values.size for values in pressures):
-        rows += [(f'{word} pressure', _both([extreme(values) * MEGAPASCAL for values in pressures],
-                                            'MPa'))
-                 for word, extreme in (('highest', np.max), ('lowest', np.min))]
+    for word in ('highest', 'lowest'):
+        found = [one.extreme_pressure(word) for one in (series, other)]
+        if None not in found:
+            rows.append((f'{word} pressure', _both([one[0] * MEGAPASCAL for one in found], 'MPa')))
     steps = [step_of(one) for one in (series, other)]
     if None in steps:
         return rows

@@ -12,7 +12,10 @@ from functools import cached_property
 from pathlib import Path
 
 from hydra_actuator.analysis.decimation import bucket_extremes
+from hydra_actuator.analysis.frames import Frames
 import numpy as np
+
+BUCKETS = 200           # among which an extreme is looked for
 
 
 @dataclass(frozen=True)
@@ -21,14 +24,15 @@ class Field:
     Pressure and velocity over streamline and time.
 
     `positions` are those at mid-stroke; the nodes `faces` (of both piston faces) move with the
-    piston. Nodes that the piston has left behind are NaN.
+    piston. Nodes that the piston has left behind are NaN. Of a recording, pressure and velocity
+    are read when they are looked at: see `frames`.
     """
 
     time: np.ndarray          # (frames,) [s]
     positions: np.ndarray     # (nodes,) [m]
     labels: tuple[str, ...]   # (nodes,) name of the domain
-    pressure: np.ndarray      # (frames, nodes) absolute [Pa]
-    velocity: np.ndarray      # (frames, nodes) [m/s]
+    pressure: np.ndarray | Frames   # (frames, nodes) absolute [Pa]
+    velocity: np.ndarray | Frames   # (frames, nodes) [m/s]
     faces: tuple[int, int] | None
     source: str
 
@@ -52,9 +56,27 @@ class Field:
     def extremes(self, quantity: str, buckets: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return `bucket_extremes` of 'pressure' or 'velocity'."""
         key = quantity, buckets
+        finer = [n for name, n in self._extremes if name == quantity and n > 1]
         if key not in self._extremes:
-            self._extremes[key] = bucket_extremes(getattr(self, quantity), buckets)
+            if buckets == 1 and finer:
+                _, lowest, highest = self._extremes[quantity, finer[0]]
+                self._extremes[key] = (np.zeros(1, int), np.fmin.reduce(lowest)[None],
+                                       np.fmax.reduce(highest)[None])
+            else:
+                self._extremes[key] = bucket_extremes(getattr(self, quantity), buckets)
         return self._extremes[key]
+
+    def lowest_pressure(self) -> tuple[float, int, int] | None:
+        """Return the lowest pressure [Pa], its frame and its node; None if there is none."""
+        known = [n for quantity, n in self._extremes if quantity == 'pressure' and n > 1]
+        starts, lowest, _ = self.extremes('pressure', max(known, default=BUCKETS))
+        if not np.isfinite(lowest).any():
+            return None
+        bucket = int(np.nanargmin(lowest) // lowest.shape[1])
+        first, end = [*starts, len(self.time)][bucket: bucket + 2]
+        values = np.asarray(self.pressure[first:end])
+        frame, node = np.unravel_index(np.nanargmin(values), values.shape)
+        return float(values[frame, node]), int(first + frame), int(node)
 
     def between(self, start: float, end: float) -> 'Field':
         """Return the frames of start <= time <= end [s], half an interval added."""
@@ -66,7 +88,13 @@ class Field:
         )
 
     def having(self, quantity: str) -> 'Field':
-        """Return the frames in which 'pressure' or 'velocity' was recorded."""
+        """
+        Return the frames in which 'pressure' or 'velocity' was recorded.
+
+        A recorded frame holds both.
+        """
+        if isinstance(self.pressure, Frames):
+            return self
         known = np.isfinite(getattr(self, quantity)).any(axis=1)
         return self if known.all() else dataclasses.replace(
             self, time=self.time[known], pressure=self.pressure[known],
@@ -131,3 +159,17 @@ class Series:
     cavities: Cavities | None = None     # without gas there are none
     source: str = ''
     path: Path | None = None
+
+    def extreme_pressure(self, word: str) -> tuple[float, int, int] | None:
+        """
+        Return the 'highest' or the 'lowest' pressure [Pa] of all sections, its tick and section.
+
+        The first one, if there are several; None if no pressure was recorded.
+        """
+        choose, sign = (np.nanargmax, -1.0) if word == 'highest' else (np.nanargmin, 1.0)
+        ticks = [(int(choose(column)), k) for k, column in enumerate(self.pressure.T)
+                 if np.isfinite(column).any()]
+        if not ticks:
+            return None
+        tick, k = min(ticks, key=lambda one: (sign * self.pressure[one], *one))
+        return float(self.pressure[tick, k]), tick, k

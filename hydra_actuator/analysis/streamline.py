@@ -34,9 +34,13 @@ def field_of_stations(series: Series) -> Field | None:
     if len(names) < FEWEST_STATIONS or len(series.section_positions) != len(places):
         return None
     columns = [places[name] for name in names]
+    whole = columns == list(range(len(places)))
+    # Views where nothing is left out: the stations of a long run take much memory.
+    columns = slice(None) if whole else columns
     known = np.isfinite(series.pressure[:, columns]).all(axis=1)
     if np.sum(known) < 2:
         return None
+    known = slice(None) if known.all() else known
     labels = tuple(DOMAINS[STATIONS.index(name) // 2] for name in names)
     both = 'E' in names and 'F' in names
     return Field(

@@ -9,6 +9,7 @@ domains; otherwise they would only alias.
 
 from dataclasses import dataclass
 
+from hydra_actuator.analysis.frames import blocks_of
 from hydra_actuator.analysis.series import Field, Series
 import numpy as np
 
@@ -96,7 +97,9 @@ def largest_step(series: Series) -> float:
     known = np.isfinite(series.pressure).all(axis=1)
     if series.pressure.shape[1] == 0 or np.sum(known) < 2:
         return float(series.time[0])
-    step = np.abs(np.diff(series.pressure[known], axis=0)).max(axis=1)
+    step = np.zeros(np.sum(known) - 1)
+    for column in series.pressure.T:
+        np.maximum(step, np.abs(np.diff(column[known])), out=step)
     return float(series.time[known][int(step.argmax())])
 
 
@@ -142,5 +145,10 @@ def _steepest(field: Field) -> float:
     """Return the time [s] of the first of the largest pressure changes between two frames."""
     if len(field.time) < 2:
         return float(field.time[0]) if len(field.time) else 0.0
-    change = np.nan_to_num(np.abs(np.diff(field.pressure, axis=0))).max(axis=1)
+    changes, last = [], None
+    for block in blocks_of(field.pressure):
+        rows = block if last is None else np.concatenate([last, block])
+        changes.append(np.nan_to_num(np.abs(np.diff(rows, axis=0))).max(axis=1, initial=0.0))
+        last = rows[-1:].copy()
+    change = np.concatenate(changes)
     return float(field.time[int(np.argmax(change >= STEEP * change.max()))])
