@@ -9,7 +9,7 @@ The actuator: parameters, a state, and the call that moves it. No ROS needed.
 from collections.abc import Callable, Mapping
 import math
 
-from hydra_actuator.actuator_state import ActuatorState, Cavities, state_of
+from hydra_actuator.actuator_state import ActuatorState, Cavities, MassBalance, state_of
 from hydra_actuator.assembly import (
     INPUTS,
     LOAD_FORCE,
@@ -119,9 +119,12 @@ class Actuator:
     @property
     def cavities(self) -> Cavities:
         """How many cavities there are and were, as of the last whole period."""
-        counts = self._state.cavities[0]
-        return Cavities(int(counts['open']), int(counts['opened']), int(counts['collapsed']),
-                        float(counts['largest']))
+        return Cavities(*self._state.cavities[0].item())
+
+    @property
+    def mass_balance(self) -> MassBalance:
+        """What is missing of the oil's mass, and how much has passed the pump and the tank."""
+        return MassBalance(*self._state.mass[['passed', 'residual']][0].item())
 
     @property
     def vacuum_ticks(self) -> int:

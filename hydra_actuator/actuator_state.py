@@ -39,6 +39,19 @@ class Cavities:
     largest: float
 
 
+@dataclass(frozen=True)
+class MassBalance:
+    """
+    Oil since the start, or since the gas in it was last changed by a fault.
+
+    passed [kg] through the outer ends, half of pump's and tank's either way; residual [kg]: in -
+    out - stored, as of the last weighing. See hydra_actuator.core.mass.
+    """
+
+    passed: float
+    residual: float
+
+
 def state_of(row: np.ndarray, channels: Channels, void_fractions: np.ndarray) -> ActuatorState:
     """Return the state that an observation row tells; void_fractions: gas of each section."""
     names = channels.section_names

@@ -8,6 +8,7 @@ the step time, so any split of the steps gives the same bits.
 
 from hydra_actuator.core.boiling import count_cavities, note_lowest
 from hydra_actuator.core.compilation import formula, kernel
+from hydra_actuator.core.mass import add_flows, begin_balance, strike_balance, WEIGH_EVERY
 from hydra_actuator.core.observe import find_limits, runs_away, SOUND
 from hydra_actuator.core.step import step
 
@@ -41,17 +42,22 @@ def advance(model, state, passes, schedule, inputs, count, check_interval):
     Advance `count` steps; return the status code (state.fault holds where and how much).
 
     schedule: (times (T,) [s], table (T, C), hold); inputs: work (C,), the inputs in force;
-    check_interval: steps after which cavities are counted; limits are checked then, every
-    LOOK_EVERY steps, at the end, and where an end runs away.
+    check_interval: steps after which cavities are counted, and WEIGH_EVERY times it the oil is
+    weighed; limits are checked then, every LOOK_EVERY steps, at the end, and where an end runs
+    away.
     """
     times, table, hold = schedule
     cursor, code = 0, SOUND
     now, began = state, state.step[0]
+    begin_balance(model, state)
     for _ in range(count):
         time = (state.step[0] + 1) * model.step_time
         cursor = read_inputs(times, table, hold, cursor, time, inputs)
         step(model, now, inputs, passes)
         now = now.exchanged
+        add_flows(model, now)
+        if state.step[0] % (WEIGH_EVERY * check_interval) == 0:
+            strike_balance(model, now)
         if len(model.extras) > 0 and model.gas == 1:
             note_lowest(model, now)
             if state.step[0] % check_interval == 0:

@@ -36,6 +36,7 @@ def set_gas(model: Model, state: State, air_fraction: float) -> Model:
     model.end_strength[:] = end_strength
     for d in range(len(model.start)):
         place_gas(model, state, d)
+    state.mass['began'] = 0
     if air_fraction > 0.0:
         return replace(model, gas=1, extras=(1,))
     counts = state.cavities

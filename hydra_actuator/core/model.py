@@ -17,6 +17,7 @@ from hydra_actuator.core.oil import friction_constants, gas_constants, has_table
 from hydra_actuator.core.records import (
     CAVITY_COUNTS,
     JUNCTION,
+    MASS_BALANCE,
     Model,
     PISTON_PARAMETERS,
     PISTON_STATE,
@@ -211,6 +212,7 @@ def _empty_state(domains: int, nodes: int) -> State:
         end_star=np.ones(2 * domains), strength=np.zeros(nodes), face_held=np.zeros(domains),
         lowest_star=np.full(nodes + domains, np.inf),
         was_open=np.zeros(nodes + domains, np.int64), cavities=np.zeros(1, CAVITY_COUNTS),
+        mass=np.zeros(1, MASS_BALANCE),
         spool=np.zeros(4), edge_coefficient=np.zeros(4),
         valve_velocity=np.zeros(4), ring=np.zeros((6, 4)), piston=np.zeros(1, PISTON_STATE),
         oil_stored=np.zeros(2), step=np.zeros(1, np.int64), fault=np.zeros(3))

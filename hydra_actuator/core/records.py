@@ -52,6 +52,12 @@ CAVITY_COUNTS = np.dtype([
     ('open', np.int64), ('opened', np.int64), ('collapsed', np.int64), ('largest', np.float64)],
     align=True)
 
+# Since the balance of mass began: net inflow now and its half sum of sizes [kg/s], both summed
+# [kg], mass then and what is missing at the last weighing [kg]; see hydra_actuator.core.mass.
+MASS_BALANCE = np.dtype([
+    ('began', np.int64), ('net', np.float64), ('through', np.float64), ('entered', np.float64),
+    ('passed', np.float64), ('at_first', np.float64), ('residual', np.float64)], align=True)
+
 
 @dataclass(frozen=True, eq=False)
 class Model(Handle):
@@ -138,6 +144,7 @@ class State(Handle):
     lowest_star: np.ndarray     # (N + D,) lowest since cavities were counted, faces last [Pa]
     was_open: np.ndarray        # (N + D,) int64: 1 where a cavity was open then
     cavities: np.ndarray        # (1,) CAVITY_COUNTS
+    mass: np.ndarray            # (1,) MASS_BALANCE
     spool: np.ndarray           # (4,) displacement, velocity of spool 1, of spool 2
     edge_coefficient: np.ndarray  # (4,) K' of the valve's edges
     valve_velocity: np.ndarray  # (4,) work: outflow at A, B, I, J

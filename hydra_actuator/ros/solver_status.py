@@ -34,8 +34,9 @@ def solver(state: str, problem: str, active: bool, rig: Rig | None) -> Status:
 
 
 def _figures(rig: Rig) -> dict[str, str]:
-    """Return counts and figures; times in s."""
+    """Return counts and figures; times in s, masses in kg."""
     actuator, parameters = rig.actuator, rig.parameters
+    mass = actuator.mass_balance
     return {
         'mode': parameters['timing.mode'],
         'paused': str(rig.paused).lower(),
@@ -47,5 +48,7 @@ def _figures(rig: Rig) -> dict[str, str]:
         'largest_mach': f'{actuator.largest_mach:.6f}',
         'max_mach': f'{parameters["solver.max_mach"]:g}',
         'stop_hits': str(actuator.stop_hits),
+        'mass_residual': f'{mass.residual:.3e}',
+        'mass_passed': f'{mass.passed:.6g}',
         'parameter_hash': parameter_hash(parameters),
     }

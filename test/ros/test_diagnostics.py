@@ -64,6 +64,8 @@ def test_a_running_node_tells_a_rig_operator_how_it_stands(node_process, peer):
     assert 0.5 < float(solver['courant']) <= 1.0
     assert solver['version: hydra_actuator'] == __version__
     assert len(solver['parameter_hash']) == 16
+    assert float(solver['mass_passed']) > 0.0
+    assert 0.0 < abs(float(solver['mass_residual'])) < 1e-3 * float(solver['mass_passed'])
 
     recorder = values_of(last, 'Recorder')
     on_disk = sum(file.stat().st_size for file in node.recording.iterdir())
