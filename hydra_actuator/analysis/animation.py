@@ -12,12 +12,15 @@ from pathlib import Path
 
 from hydra_actuator.analysis import streamline
 from hydra_actuator.analysis.figure_fields import x_axis
+from hydra_actuator.analysis.frames import BLOCK
 from hydra_actuator.analysis.movie_files import movie_writer, saving
 from hydra_actuator.analysis.palette import BLUE, INK, VERMILION
 from hydra_actuator.analysis.picture_files import write_whole
 from hydra_actuator.analysis.plot import View
 from hydra_actuator.analysis.printing import STYLE
 from hydra_actuator.analysis.scene import Scene
+from hydra_actuator.analysis.series import Field, Series
+from hydra_actuator.analysis.window import Window
 from hydra_actuator.errors import InputError
 import numpy as np
 
@@ -41,23 +44,22 @@ class Animation:
         from matplotlib.figure import Figure
 
         series, shown, units = view.series, view.shown, view.units
-        self._part = view.field.between(shown.start, shown.end)
-        ends = streamline.boundaries(self._part)
-        if len(ends) != 6 or self._part.faces is None or not len(self._part.time):
+        part = view.field.between(shown.start, shown.end)
+        ends = streamline.boundaries(part)
+        if len(ends) != 6 or part.faces is None or not len(part.time):
             raise InputError(f'{series.name} holds too little of the streamline in the part shown '
                              'to be drawn: neither the field nor all stations')
         self.instants = np.linspace(shown.start, shown.end, frames)
         self._units = units
         self._slow = (shown.end - shown.start) / max(frames - 1, 1) * rate
-        piston = np.interp(self._part.time, series.time, series.position)
-        self._x = units.place(streamline.node_positions(self._part, piston))
-        self._pressure = units.pressure(streamline.gapless(self._part, self._part.pressure))
+        self._part = part.at(np.unique([np.abs(part.time - t).argmin() for t in self.instants]))
+        self._x, self._pressure = self._placed(self._part, series)
         stroke = series.parameters.get('valve.stroke') or 1.0
         self._openings = np.stack(
             [np.interp(self.instants, series.time, spool) for spool in series.spool.T], 1) / stroke
         self.figure = Figure(figsize=tuple(size), facecolor='white')
         self._grid = np.linspace(*(float(units.place(ends[k][0])) for k in (0, -1)), COLUMNS)
-        self._draw_still(ends, series, shown, stroke)
+        self._draw_still(ends, series, part, shown, stroke)
 
     def __len__(self) -> int:
         """Return how many instants there are."""
@@ -77,13 +79,32 @@ class Animation:
                 else f'{time * 1e3:.2f} ms')
         self._words.set_text(f'{told}    slowed down {1 / max(self._slow, 1e-12):.3g} times')
 
-    def _draw_still(self, ends: list, series, shown, stroke: float) -> None:
+    def _placed(self, part: Field, series: Series) -> tuple[np.ndarray, np.ndarray]:
+        """Return place and pressure of the nodes in some frames, as they are shown."""
+        piston = np.interp(part.time, series.time, series.position)
+        return (self._units.place(streamline.node_positions(part, piston)),
+                self._units.pressure(streamline.gapless(part, part.pressure)))
+
+    def _envelope(self, part: Field, series: Series) -> tuple[np.ndarray, np.ndarray]:
+        """Return the lowest and the highest pressure at each place of the grid."""
+        lowest = highest = np.full(len(self._grid), np.nan)
+        for first in range(0, len(part.time), BLOCK):
+            some = self._placed(part.at(slice(first, first + BLOCK)), series)
+            rows = streamline.on_even_grid(*some, self._grid)
+            lowest, highest = np.fmin(lowest, rows.min(axis=0)), np.fmax(highest, rows.max(axis=0))
+        return lowest, highest
+
+    def _draw_still(self, ends: list, series: Series, part: Field, shown: Window,
+                    stroke: float) -> None:
         """Draw axes, ranges and everything that does not move."""
         from matplotlib.cm import ScalarMappable
         from matplotlib.colors import Normalize
 
         units, figure = self._units, self.figure
-        low, high = float(self._pressure.min()), float(self._pressure.max())
+        lowest, highest = self._envelope(part, series)
+        _, *limits = part.extremes('pressure', 1)
+        low, high = (float(choose(units.pressure(limit)))
+                     for choose, limit in zip((np.nanmin, np.nanmax), limits))
         margin = 0.04 * max(high - low, 1e-9)
         colours = ScalarMappable(Normalize(low, max(high, low + 1e-9)), 'cividis')
         below = figure.add_axes((0.09, 0.40, 0.80, 0.26))
@@ -93,9 +114,7 @@ class Animation:
         bar = figure.colorbar(colours, cax=figure.add_axes((0.915, 0.40, 0.013, 0.50)))
         bar.set_label(units.pressure.label('pressure'))
         bar.outline.set_visible(False)
-        rows = streamline.on_even_grid(self._x, self._pressure, self._grid)
-        below.fill_between(self._grid, rows.min(axis=0), rows.max(axis=0), color='#e4e8ec',
-                           linewidth=0)
+        below.fill_between(self._grid, lowest, highest, color='#e4e8ec', linewidth=0)
         self._line, = below.plot([], [], color=BLUE, linewidth=1.6)
         axis = x_axis(ends, units)
         below.set(xlim=axis['range'], ylim=(low - margin, high + margin),

@@ -79,17 +79,17 @@ def _section_positions(recording: Recording) -> np.ndarray:
 
 def _field(recording: Recording) -> Field | None:
     """Return the field, or None if there is none."""
-    time, nodes = recording.field_time, recording.field_nodes
+    time, reader = recording.field_time, recording.field_reader
     if not len(time):
         return None
     places, labels = recording.field_positions, tuple(recording.field_labels)
-    if not len(places) == len(labels) == nodes:
+    if not len(places) == len(labels) == reader.nodes:
         raise InputError(
-            f'{recording.path}: its field has {nodes} nodes, but positions for '
+            f'{recording.path}: its field has {reader.nodes} nodes, but positions for '
             f'{len(places)} and labels for {len(labels)}'
         )
     every = np.arange(len(time))
-    pressure, velocity = (Frames(recording, part, every, nodes) for part in (PRESSURE, VELOCITY))
+    pressure, velocity = (Frames(reader, part, every) for part in (PRESSURE, VELOCITY))
     return Field(time, places, labels, pressure, velocity, piston_faces(labels), 'the field')
 
 

@@ -21,11 +21,7 @@ QUANTITIES = ('pressure', 'velocity')
 
 def thinned(field: Field, frames: int) -> Field:
     """Return every n-th frame, so that no more than `frames` are left."""
-    step = max(1, -(-len(field.time) // frames))
-    return Field(
-        field.time[::step], field.positions, field.labels, field.pressure[::step],
-        field.velocity[::step], field.faces, field.source,
-    )
+    return field.at(slice(None, None, max(1, -(-len(field.time) // frames))))
 
 
 def _unseen(key: str, title: str, quantity: str) -> Figure:

@@ -87,9 +87,7 @@ def _spread(shown: Window) -> np.ndarray:
 def _profile(series: Series, field: Field, frame: int, units: Units, colour: str,
              **more) -> list[dict]:
     """Return the two lines of one frame; a jump between two domains is vertical."""
-    one = slice(frame, frame + 1)
-    part = Field(field.time[one], field.positions, field.labels, field.pressure[one],
-                 field.velocity[one], field.faces, field.source)
+    part = field.at(slice(frame, frame + 1))
     piston = np.interp(part.time, series.time, series.position)
     x = units.place(streamline.node_positions(part, piston)[0])
     name, traces = _moment(float(part.time[0]), units), []

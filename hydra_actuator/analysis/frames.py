@@ -7,19 +7,12 @@ see every frame takes a block at a time, so that a run of any length fits into m
 """
 
 from collections.abc import Iterator
-from typing import Protocol
 
+from hydra_actuator.recording.frames import FieldReader
 import numpy as np
 
 PRESSURE, VELOCITY = 0, 1
 BLOCK = 1024            # frames of an array in memory that are seen at once
-
-
-class FrameSource(Protocol):
-    """What frames are read from: a recording."""
-
-    def field_frames(self, chosen: np.ndarray | None = None) -> Iterator[np.ndarray]:
-        """Yield frames (some, nodes, 2) at a time, those at ascending places."""
 
 
 class Frames:
@@ -27,18 +20,19 @@ class Frames:
 
     ndim, dtype = 2, np.dtype(np.float32)
 
-    def __init__(self, source: FrameSource, quantity: int, chosen: np.ndarray, nodes: int):
-        self._source = source
+    def __init__(self, reader: FieldReader, quantity: int, chosen: np.ndarray):
+        """Take the places of the frames, ascending, and which quantity of theirs."""
+        self._reader = reader
         self._quantity = quantity
         self._chosen = chosen
-        self.shape = (len(chosen), nodes)
+        self.shape = (len(chosen), reader.nodes)
 
     def __len__(self) -> int:
         return len(self._chosen)
 
     def __getitem__(self, frames) -> 'Frames':
         """Return the frames of a slice, a mask or ascending places, unread."""
-        return Frames(self._source, self._quantity, self._chosen[frames], self.shape[1])
+        return Frames(self._reader, self._quantity, self._chosen[frames])
 
     def __array__(self, dtype=None, copy=None) -> np.ndarray:
         """Read them, float32."""
@@ -50,7 +44,7 @@ class Frames:
 
     def blocks(self) -> Iterator[np.ndarray]:
         """Yield them in order, some at a time."""
-        for frames in self._source.field_frames(self._chosen):
+        for frames in self._reader.read(self._chosen):
             yield frames[:, :, self._quantity]
 
 

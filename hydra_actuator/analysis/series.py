@@ -81,11 +81,12 @@ class Field:
     def between(self, start: float, end: float) -> 'Field':
         """Return the frames of start <= time <= end [s], half an interval added."""
         margin = 0.5 * self.interval if len(self.time) > 1 else 0.0
-        shown = slice(*np.searchsorted(self.time, [start - margin, end + margin]))
-        return Field(
-            self.time[shown], self.positions, self.labels, self.pressure[shown],
-            self.velocity[shown], self.faces, self.source,
-        )
+        return self.at(slice(*np.searchsorted(self.time, [start - margin, end + margin])))
+
+    def at(self, frames: slice | np.ndarray) -> 'Field':
+        """Return the frames of a slice, a mask or ascending places."""
+        return dataclasses.replace(self, time=self.time[frames], pressure=self.pressure[frames],
+                                   velocity=self.velocity[frames])
 
     def having(self, quantity: str) -> 'Field':
         """
@@ -96,9 +97,7 @@ class Field:
         if isinstance(self.pressure, Frames):
             return self
         known = np.isfinite(getattr(self, quantity)).any(axis=1)
-        return self if known.all() else dataclasses.replace(
-            self, time=self.time[known], pressure=self.pressure[known],
-            velocity=self.velocity[known])
+        return self if known.all() else self.at(known)
 
 
 @dataclass(frozen=True)

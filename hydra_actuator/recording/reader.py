@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 from hydra_actuator.channels import Channels
 from hydra_actuator.recording import labelled, messages
 from hydra_actuator.recording.errors import RecordingError
+from hydra_actuator.recording.frames import FieldReader, frames_of
 from hydra_actuator.recording.metadata import FILE_NAME, mcap_files, read_metadata
 from hydra_actuator.recording.opening import CUSTOM_DATA
 from hydra_actuator.recording.rows import StateTopics
@@ -133,16 +134,12 @@ class Recording:
     @cached_property
     def field(self) -> np.ndarray:
         """Absolute pressure [Pa] and velocity [m/s], float32, shape (frames, nodes, 2)."""
-        return _frames(self._field.numbers())
+        return frames_of(self._field.numbers())
 
-    def field_frames(self, chosen: np.ndarray | None = None) -> Iterator[np.ndarray]:
-        """
-        Yield some frames of `field` at a time, all or those at ascending places, and keep none.
-
-        A frame is as long as the first one.
-        """
-        for part in self._field.number_blocks(chosen):
-            yield _frames(part.numbers)
+    @cached_property
+    def field_reader(self) -> FieldReader:
+        """The frames of `field`, some at a time; it outlives the recording."""
+        return FieldReader(self._field)
 
     @cached_property
     def field_stamps(self) -> np.ndarray:
@@ -193,11 +190,6 @@ class Recording:
                     for stamp, message in zip(stamps, series.decoded())
                 ]
         return [message for _, message in sorted(found, key=lambda pair: pair[0])]
-
-    @cached_property
-    def field_nodes(self) -> int:
-        """How many nodes the first frame of the field has; 0 if there is none."""
-        return next((frames.shape[1] for frames in self.field_frames(np.zeros(1, int))), 0)
 
     @cached_property
     def _field(self) -> Series:
@@ -263,9 +255,3 @@ def _series(files: list[ScannedFile]) -> dict[str, Series]:
             for block in file.blocks:
                 series.add(block, number)
     return found
-
-
-def _frames(numbers: np.ndarray) -> np.ndarray:
-    """Return the messages of a field, their times left out, as (frames, nodes, 2)."""
-    values = numbers[:, 1:]
-    return values.reshape(len(values), values.shape[1] // 2, 2).astype('f4', copy=False)

@@ -77,8 +77,8 @@ def made_run(duration: float = 1.0, field_rate: float = 1000.0) -> Series:
     )
 
 
-def as_recording(run: Series, directory: Path) -> Path:
-    """Write a run as the node would, and return its directory."""
+def as_recording(run: Series, directory: Path, **options) -> Path:
+    """Write a run as the node would, options as the writer's, and return its directory."""
     topics = ActuatorTopics('/actuator', run.section_names)
     custom_data = {
         'parameters': '/**:\n  ros__parameters:\n    valve: {stroke: 5.0e-4}\n'
@@ -107,7 +107,7 @@ def as_recording(run: Series, directory: Path) -> Path:
         status = (report.level, report.name, report.message, 'hydra_actuator', report.values)
         found.append((topics.diagnostics, stamp, stamp,
                       messages.diagnostic_array(stamp, [status])))
-    with RecordingWriter(directory, topics.all(), custom_data) as writer:
+    with RecordingWriter(directory, topics.all(), custom_data, **options) as writer:
         writer.write_batch(sorted(found, key=lambda message: message[1]))
     return directory
 
@@ -143,7 +143,7 @@ def _rows(run: Series):
 @pytest.fixture
 def record(tmp_path):
     """Return a function that writes a run as a recording and returns its directory."""
-    return lambda run, name='made_run': as_recording(run, tmp_path / name)
+    return lambda run, name='made_run', **options: as_recording(run, tmp_path / name, **options)
 
 
 @pytest.fixture
