@@ -12,6 +12,8 @@ import sys
 
 import pytest
 
+pytestmark = pytest.mark.once
+
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / 'hydra_actuator'
 SOURCES = sorted(PACKAGE.rglob('*.py'))

@@ -8,6 +8,8 @@ from hydra_actuator.parameters.options import EVERYTHING, OPTIONS
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.once
+
 SMALL = Parameters().replace({'solver.cells': 40})
 
 

@@ -17,6 +17,8 @@ from hydra_actuator.stages import (
 )
 import pytest
 
+pytestmark = pytest.mark.once
+
 
 @pytest.fixture(scope='module')
 def stages():

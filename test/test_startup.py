@@ -6,6 +6,9 @@ import os
 from hydra_actuator.actuator import Actuator
 from hydra_actuator.kernels import cache_root
 from hydra_actuator.startup import measure_start
+import pytest
+
+pytestmark = pytest.mark.once
 
 
 def test_a_warm_start_is_measured_by_its_parts():

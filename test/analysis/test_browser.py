@@ -17,6 +17,8 @@ from hydra_actuator.cli.main import main
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.once
+
 SCREENSHOTS = Path(__file__).parents[2] / 'build' / 'screenshots'
 NAMES = ('chromium', 'chromium-browser', 'google-chrome', 'google-chrome-stable')
 # Surfaces need WebGL, which software gives where there is no graphics card.

@@ -5,6 +5,8 @@ from hydra_actuator.cli.main import main
 from hydra_actuator.parameters.options import OPTIONS
 import pytest
 
+pytestmark = pytest.mark.once
+
 
 @pytest.fixture
 def small(tmp_path):

@@ -8,6 +8,8 @@ from hydra_actuator.parameters import Parameters
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.once
+
 SMALL = Parameters({'solver.cells': 40})
 
 

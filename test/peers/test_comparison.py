@@ -10,6 +10,8 @@ from hydra_actuator.peers.environment import last_line, NotInstalled, Peer, pyth
 from hydra_actuator.peers.work import Measured
 import pytest
 
+pytestmark = pytest.mark.once
+
 
 def test_a_package_that_is_not_there_is_the_reason(tmp_path):
     peer = Peer('Nobody', 'nobody_line.py', (str(tmp_path / 'nothing.whl'),), 10)
