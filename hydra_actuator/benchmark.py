@@ -8,13 +8,14 @@ a machine of its own.
 """
 
 from collections.abc import Callable
+import copy
 from dataclasses import dataclass
 import math
 import time
 
 from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.core.compilation import kernel
-from hydra_actuator.core.line import sweep
+from hydra_actuator.core.line import sweep_domains
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.parameters.options import EVERYTHING, OPTIONS
 import numpy as np
@@ -48,18 +49,10 @@ class Speed:
 
 
 @kernel
-def repeat_sweep(waves, new_waves, mesh, passes, count):
+def repeat_sweep(model, state, passes, count):
     """Sweep the same field `count` times: the arithmetic of the lines and nothing else."""
     for _ in range(count):
-        sweep(waves, new_waves, mesh, 1.0, passes)
-
-
-def swept(actuator: Actuator) -> tuple[tuple, tuple, tuple]:
-    """Return (waves, new waves, mesh) of an actuator, copies but for the mesh."""
-    model, state = actuator._model, actuator._state
-    waves = (state.wave_p.copy(), state.wave_q.copy())
-    return (waves, (waves[0].copy(), waves[1].copy()),
-            (model.courant, model.slope, model.friction))
+        sweep_domains(model, state, passes)
 
 
 def processor_time(function: Callable, *arguments) -> float:
@@ -76,7 +69,7 @@ def measure_speed(parameters: Parameters | None = None, duration: float = 2.0) -
     duration: simulated time [s] to spread over the pieces, after a warm-up of 50 ms.
     """
     actuator = Actuator(parameters)
-    bare = (*swept(actuator), actuator._passes)
+    bare = (actuator._model, copy.deepcopy(actuator._state), actuator._passes)
     repeat_sweep(*bare, 1)
     drive(actuator, math.ceil(WARM_UP / actuator.period))
     steps = PIECE * actuator.steps_per_period

@@ -12,14 +12,14 @@ from dataclasses import dataclass
 import math
 
 from hydra_actuator.actuator import Actuator
-from hydra_actuator.benchmark import drive, processor_time, repeat_sweep, swept, WARM_UP
+from hydra_actuator.benchmark import drive, processor_time, repeat_sweep, WARM_UP
 from hydra_actuator.core.advance import LOOK_EVERY
 from hydra_actuator.core.boiling import note_lowest
 from hydra_actuator.core.cavity import fill_cavities, read_beside_faces
 from hydra_actuator.core.compilation import formula, kernel
 from hydra_actuator.core.drag import remember_drag, sweep_with_drag
 from hydra_actuator.core.junctions import solve_junction
-from hydra_actuator.core.line import sweep
+from hydra_actuator.core.line import sweep_domains
 from hydra_actuator.core.observe import find_limits, runs_away
 from hydra_actuator.core.step import (
     arrive,
@@ -46,8 +46,9 @@ class Stages:
     """
     Median times [s]: of each stage as a part of one step, of a whole step, of the bare loop.
 
-    limit: a loop over the nodes with the loads, stores and arithmetic of the plain sweep of two
-    passes, but no operation that waits for another; bare_sweep: the plain sweep alone.
+    limit: a loop over all nodes of the arrays with loads, stores and arithmetic of a plain sweep
+    of two passes, but no operation that waits for another: a yardstick that stays as it is, while
+    the sweep leaves out the nodes that no domain covers; bare_sweep: the plain sweep alone.
     """
 
     times: dict[str, float]
@@ -78,8 +79,7 @@ def do_stage(model, state, inputs, passes, stage):
         continue_beyond_ends(model, state)
     elif stage == SWEEP:
         if len(model.extras) == 0 or model.tabled == 0:
-            sweep((state.wave_p, state.wave_q), (state.new_p, state.new_q), mesh,
-                  model.third_order, passes)
+            sweep_domains(model, state, passes)
         else:
             sweep_with_drag(model, state, passes)
     elif stage == EXTRAPOLATION:
@@ -111,7 +111,7 @@ def do_part(model, state, passes, stage):
 @kernel
 def repeat_limit(waves, new_waves, mesh, count):
     """
-    Load, store and calculate as the sweep does, 38 multiply-adds and 31 additions a node.
+    Load, store and calculate as a sweep may, 38 multiply-adds and 31 additions a node.
 
     The sums run side by side in ten chains, so nothing waits.
     """
@@ -139,11 +139,12 @@ def measure_stages(parameters: Parameters | None = None, pieces: int = 40) -> St
     drive(actuator, math.ceil(WARM_UP / actuator.period))
     model, state = actuator._model, actuator._state
     passes, inputs = actuator._passes, actuator._inputs
-    fields, new, mesh = swept(actuator)
+    bare = (model, copy.deepcopy(state), passes)
+    loop = _of_plain_arrays(model, state)
     spent = {name: [] for name in NAMES}
     others = {'step': [], 'bare': [], 'limit': [], 'observe': [], 'call': []}
-    repeat_limit(fields, new, mesh, 1)
-    repeat_sweep(fields, new, mesh, passes, 1)
+    repeat_limit(*loop, 1)
+    repeat_sweep(*bare, 1)
     for k in range(len(NAMES)):
         repeat_stage(model, copy.deepcopy(state), inputs, passes, k, 1)
     for _ in range(pieces):
@@ -151,8 +152,8 @@ def measure_stages(parameters: Parameters | None = None, pieces: int = 40) -> St
             trial = copy.deepcopy(state)
             spent[name].append(_clock(
                 REPEATS, repeat_stage, model, trial, inputs, passes, k, REPEATS))
-        others['bare'].append(_clock(REPEATS, repeat_sweep, fields, new, mesh, passes, REPEATS))
-        others['limit'].append(_clock(REPEATS, repeat_limit, fields, new, mesh, REPEATS))
+        others['bare'].append(_clock(REPEATS, repeat_sweep, *bare, REPEATS))
+        others['limit'].append(_clock(REPEATS, repeat_limit, *loop, REPEATS))
         steps = actuator.steps_per_period
         others['observe'].append(_clock(steps, actuator._observe))
         others['call'].append(_clock(steps, actuator._advance, actuator._schedule, 0))
@@ -165,6 +166,13 @@ def measure_stages(parameters: Parameters | None = None, pieces: int = 40) -> St
     times['observation'] = float(np.median(others['observe']))
     times['calls from Python'] = float(np.median(others['call']))
     return Stages(times, *(float(np.median(others[key])) for key in ('step', 'bare', 'limit')))
+
+
+def _of_plain_arrays(model, state) -> tuple[tuple, tuple, tuple]:
+    """Return (waves, new waves, mesh) for the bare loop, copies but for the mesh."""
+    waves = (state.wave_p.copy(), state.wave_q.copy())
+    return (waves, (waves[0].copy(), waves[1].copy()),
+            (model.courant, model.slope, model.friction))
 
 
 def _clock(parts: int, function, *arguments) -> float:

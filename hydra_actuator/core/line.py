@@ -20,6 +20,7 @@ swept alike. Neglected: variation over the cross-section, frequency-dependent fr
 """
 
 from hydra_actuator.core.compilation import formula
+from hydra_actuator.core.lanes import load, store, WIDTH
 
 # Cells from which on no wave grows with cubics at both ends, whatever the Courant number, the next
 # line and what the ends reflect; with a parabola none does in shorter lines either.
@@ -52,23 +53,26 @@ def interpolate(ahead, here, behind, far, theta, third_order):
 
 
 @formula
-def sweep(waves, new_waves, mesh, third_order, passes):
+def sweep(waves, new_waves, mesh, nodes, scheme):
     """
-    Write P and Q [m/s] one step later into new_waves, all nodes but two at each end.
+    Write P and Q [m/s] one step later into new_waves, at the nodes of one domain.
 
-    waves: (P, Q); mesh: (courant, slope, friction) of every node: c dt/dx [-], dt/dx / 2 [s/m],
-    lambda dt / 8 [s/m], the last two for velocities 2 u = P - Q.
-    passes: a tuple whose length is the number of passes (so the compiler unrolls them).
-    The offsets start at 0 and run forward, which lets the loop vectorise.
+    waves: (P, Q); mesh: its (courant, slope, friction): c dt/dx [-], dt/dx / 2 [s/m],
+    lambda dt / 8 [s/m], the last two for velocities 2 u = P - Q; nodes: (first, end) of the node
+    arrays; scheme: (third_order, a tuple whose length is the number of passes, so that the
+    compiler unrolls them). Nodes go WIDTH at a time: up to WIDTH - 1 beyond the end are written
+    too, and two more are read.
     """
     wave_p, wave_q = waves
     new_p, new_q = new_waves
-    courant, slope, friction = mesh
-    for i in range(wave_p.size - 4):
-        p_far, p_behind, p_here = wave_p[i], wave_p[i + 1], wave_p[i + 2]
-        p_ahead, q_ahead = wave_p[i + 3], wave_q[i + 1]
-        q_here, q_behind, q_far = wave_q[i + 2], wave_q[i + 3], wave_q[i + 4]
-        sigma, kappa, loss = courant[i + 2], slope[i + 2], friction[i + 2]
+    sigma, kappa, loss = mesh
+    half_kappa, half_loss = 0.5 * kappa, 0.5 * loss
+    third_order, passes = scheme
+    first, end = nodes
+    for i in range(first, end, WIDTH):
+        p_far, p_behind, p_here = load(wave_p, i - 2), load(wave_p, i - 1), load(wave_p, i)
+        p_ahead, q_ahead = load(wave_p, i + 1), load(wave_q, i - 1)
+        q_here, q_behind, q_far = load(wave_q, i), load(wave_q, i + 1), load(wave_q, i + 2)
         a_1, a_2, a_3 = cubic(p_ahead, p_here, p_behind, p_far, third_order)
         b_1, b_2, b_3 = cubic(q_ahead, q_here, q_behind, q_far, third_order)
         here = p_here - q_here
@@ -87,14 +91,30 @@ def sweep(waves, new_waves, mesh, third_order, passes):
             drag = arrival * abs(arrival)
             foot_p = here + theta_p * rise_p
             foot_q = here + theta_q * rise_q
-            theta_p = sigma + (0.5 * kappa) * (foot_p + arrival)
-            theta_q = sigma - (0.5 * kappa) * (foot_q + arrival)
+            theta_p = sigma + half_kappa * (foot_p + arrival)
+            theta_q = sigma - half_kappa * (foot_q + arrival)
             p = p_here + theta_p * (a_1 + theta_p * (a_2 + theta_p * a_3))
             q = q_here + theta_q * (b_1 + theta_q * (b_2 + theta_q * b_3))
-            p -= (0.5 * loss) * (foot_p * abs(foot_p) + drag)
-            q += (0.5 * loss) * (foot_q * abs(foot_q) + drag)
-        new_p[i + 2] = p
-        new_q[i + 2] = q
+            p -= half_loss * (foot_p * abs(foot_p) + drag)
+            q += half_loss * (foot_q * abs(foot_q) + drag)
+        store(new_p, i, p)
+        store(new_q, i, q)
+
+
+@formula
+def sweep_domains(model, state, passes):
+    """
+    Sweep all nodes between the ends of every domain, into new_p and new_q.
+
+    In a chamber also the last whole node and the next: it may appear.
+    """
+    waves, new_waves = (state.wave_p, state.wave_q), (state.new_p, state.new_q)
+    for d in range(model.start.size):
+        first = model.start[d] + 1
+        end = first + state.last[d] - 1 + 2 * model.moving[d]
+        sweep(waves, new_waves,
+              (model.courant[first], model.slope[first], model.friction[first]),
+              (first, end), (model.third_order, passes))
 
 
 @formula

@@ -12,6 +12,7 @@ import math
 
 from hydra_actuator.core.friction import TERMS
 from hydra_actuator.core.gas import place_gas
+from hydra_actuator.core.lanes import WIDTH
 from hydra_actuator.core.line import GHOSTS, GHOSTS_BEYOND_FACE
 from hydra_actuator.core.oil import friction_constants, gas_constants, has_table, Oil
 from hydra_actuator.core.records import (
@@ -27,8 +28,9 @@ from hydra_actuator.core.records import (
 )
 import numpy as np
 
-# The sweep leaves out two nodes at each end of the arrays, ghosts included.
-SPARE = 1
+# Spare nodes before the first ghost of the arrays, and after the last: the sweep goes WIDTH nodes
+# at a time and reads two beyond.
+SPARE, SPARE_BEHIND = 1, WIDTH - 1
 
 
 @dataclass(frozen=True)
@@ -95,7 +97,7 @@ def build_chain(oil: Oil, domains: list[Domain], junctions: list[Junction], mesh
     start = GHOSTS + SPARE + np.concatenate(([0], np.cumsum(room)[:-1])).astype(np.int64)
     of_node = np.concatenate((
         np.zeros(SPARE, np.int64), np.repeat(np.arange(count), room),
-        np.full(SPARE, count - 1)))
+        np.full(SPARE_BEHIND, count - 1)))
     wave_speed = np.array([domain.wave_speed for domain in domains])
     area = np.array([domain.area for domain in domains])
     tabled = has_table(domains)

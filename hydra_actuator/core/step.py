@@ -14,7 +14,12 @@ from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.drag import drag_at, remember_drag, sweep_with_drag
 from hydra_actuator.core.end import state_at
 from hydra_actuator.core.junctions import end_of, solve_junction
-from hydra_actuator.core.line import arriving_wave, fill_ghost, GHOSTS_BEYOND_FACE, sweep
+from hydra_actuator.core.line import (
+    arriving_wave,
+    fill_ghost,
+    GHOSTS_BEYOND_FACE,
+    sweep_domains,
+)
 from hydra_actuator.core.records import VALVE
 from hydra_actuator.core.valve import edge_coefficients, move_spool
 
@@ -32,8 +37,7 @@ def step(model, state, inputs, passes):
     move_spools(model, state, inputs)
     continue_beyond_ends(model, state)
     if len(model.extras) == 0 or model.tabled == 0:
-        sweep((state.wave_p, state.wave_q), (state.new_p, state.new_q), mesh, model.third_order,
-              passes)
+        sweep_domains(model, state, passes)
     else:
         sweep_with_drag(model, state, passes)
     extrapolate_ends(state)

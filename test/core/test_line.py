@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Interpolation, ghosts and the sweep of a line, each alone."""
 
+import math
+
+from hydra_actuator.core.compilation import kernel
+from hydra_actuator.core.lanes import WIDTH
 from hydra_actuator.core.line import fill_ghost, interpolate, sweep
 from hydra_actuator.core.model import Domain, Junction, Mesh
 from hydra_actuator.core.records import CLOSED
@@ -61,13 +65,51 @@ def test_ghost_keeps_a_constant_to_the_bit(constant, cells, leaving):
     assert values[0] == constant
 
 
+@kernel
+def sweep_all(waves, new_waves, mesh, end, passes):
+    sweep(waves, new_waves, mesh, (2, end), (1.0, passes))
+
+
 def swept(wave_p: np.ndarray, wave_q: np.ndarray, friction: float = 0.0,
           passes: int = 2) -> tuple[np.ndarray, np.ndarray]:
-    mesh = (np.full(wave_p.size, 0.97), np.full(wave_p.size, 3e-4),
-            np.full(wave_p.size, friction))
-    new = np.full(wave_p.size, np.nan), np.full(wave_p.size, np.nan)
-    sweep((wave_p, wave_q), new, mesh, 1.0, (0,) * passes)
-    return new
+    beyond = np.full(WIDTH - 1, np.nan)
+    waves = tuple(np.append(wave, beyond) for wave in (wave_p, wave_q))
+    new = tuple(np.full(wave.size, np.nan) for wave in waves)
+    sweep_all(waves, new, (0.97, 3e-4, friction), wave_p.size - 2, (0,) * passes)
+    return new[0][:wave_p.size], new[1][:wave_p.size]
+
+
+def one_node_later(p: np.ndarray, q: np.ndarray, friction: float, passes: int) -> tuple:
+    """Return P and Q of the middle of five nodes, by the formula as it is written."""
+    sigma, kappa, loss = 0.97, 3e-4, friction
+    here, before, after = p[2] - q[2], p[1] - q[1], p[3] - q[3]
+    foot_p, foot_q = here + sigma * (before - here), here + sigma * (after - here)
+    mean_p, mean_q = foot_p, foot_q
+    lost_p, lost_q = foot_p * abs(foot_p), foot_q * abs(foot_q)
+    theta_p, theta_q, new_p, new_q = sigma, sigma, math.nan, math.nan
+    for k in range(passes):
+        if k > 0:
+            arrival = new_p - new_q
+            foot_p = here + theta_p * (before - here)
+            foot_q = here + theta_q * (after - here)
+            mean_p, mean_q = 0.5 * (foot_p + arrival), 0.5 * (foot_q + arrival)
+            lost_p = 0.5 * (foot_p * abs(foot_p) + arrival * abs(arrival))
+            lost_q = 0.5 * (foot_q * abs(foot_q) + arrival * abs(arrival))
+        theta_p, theta_q = sigma + kappa * mean_p, sigma - kappa * mean_q
+        new_p = interpolate(p[3], p[2], p[1], p[0], theta_p, 1.0) - loss * lost_p
+        new_q = interpolate(q[1], q[2], q[3], q[4], theta_q, 1.0) + loss * lost_q
+    return new_p, new_q
+
+
+@pytest.mark.parametrize('passes', [1, 2, 3])
+@pytest.mark.parametrize('size', [5, 8, 9, 10, 11, 40])
+def test_every_node_is_swept_by_the_formula_of_one(size, passes):
+    p, q = np.random.default_rng(size).normal(size=(2, size))
+    new_p, new_q = swept(p, q, 1e-3, passes)
+    for i in range(2, size - 2):
+        five = slice(i - 2, i + 3)
+        assert (new_p[i], new_q[i]) == pytest.approx(
+            one_node_later(p[five], q[five], 1e-3, passes), rel=1e-13, abs=1e-14)
 
 
 @given(constants, constants)
