@@ -143,7 +143,7 @@ def test_arrows_point_one_way(path):
 def test_core_imports_only_numpy_numba_math_and_core(path):
     roots = {name.split('.')[0] for name in imported(path)}
     assert roots <= {'numpy', 'numba', 'llvmlite', 'math', 'collections', 'dataclasses',
-                     'hashlib', 'typing', 'hydra_actuator'}
+                     'hashlib', 'operator', 'typing', 'hydra_actuator'}
 
 
 @pytest.mark.parametrize('path', WITHOUT_ROS, ids=label)
