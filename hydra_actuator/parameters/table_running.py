@@ -24,6 +24,8 @@ SECTIONS = group(
 
 COMMAND = group(
     'command',
+    double('max_age', 0.0, 's', (0.0, 3600.0),
+           'how far the stamp of a joint command may be from now either way; 0: not judged'),
     double('timeout', 0.0, 's', (0.0, 3600.0), 'silence after which on_timeout acts; 0: off'),
     string('on_timeout', 'hold', 'what the spool does then', ('hold', 'centre')),
     double('scale', 1.0, '1', (1e-9, 1e9),

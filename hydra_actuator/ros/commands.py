@@ -3,8 +3,8 @@
 What a command message asks of the valve, or why it is not obeyed. No ROS in here.
 
 A message is taken whole or not at all: NaN, infinity, a wrong length, a duplicate joint name, an
-index beyond the array make it a rejected one. Out of range is clamped. In a joint state, only
-the valve's joints count, and NaN says that there is no command yet.
+index beyond the array, a stamp too far from now make it a rejected one. Out of range is clamped.
+In a joint state, only the valve's joints count, and NaN says that there is no command yet.
 """
 
 from collections import Counter
@@ -31,13 +31,15 @@ class CommandRules:
     What a command is measured by.
 
     spools: 1 or 2; stroke: spool displacement [m] at full command; scale: size of a full
-    command on the topics that carry no displacement; valve_joint: name of the (first) spool.
+    command on the topics that carry no displacement; valve_joint: name of the (first) spool;
+    max_age: largest distance [s] of a stamp from now, 0 for any.
     """
 
     spools: int
     stroke: float
     scale: float
     valve_joint: str
+    max_age: float = 0.0
 
     @staticmethod
     def of(parameters: Parameters) -> 'CommandRules':
@@ -45,6 +47,7 @@ class CommandRules:
         return CommandRules(
             parameters['valve.spools'], parameters['valve.stroke'],
             parameters['command.scale'], parameters['command.valve_joint'],
+            parameters['command.max_age'],
         )
 
     @property
@@ -86,8 +89,16 @@ class CommandDesk:
                 'wrong length', f'{len(values)} values for {self.rules.spools} spools')
         return self._accept([value / self.rules.scale for value in values])
 
-    def joint_commands(self, names: Sequence[str], positions: Sequence[float]) -> Spools | None:
-        """Judge a joint state: spool displacements [m] by the names of the valve's joints."""
+    def joint_commands(self, names: Sequence[str], positions: Sequence[float],
+                       age: float = 0.0) -> Spools | None:
+        """
+        Judge a joint state: spool displacements [m] by the names of the valve's joints.
+
+        age: how far back its stamp is [s]; 0 where it has none.
+        """
+        if 0.0 < self.rules.max_age < abs(age):
+            reason = 'stale stamp' if age > 0.0 else 'stamp in the future'
+            raise self._reject(reason, f'{abs(age):.3f} s, at most {self.rules.max_age:g} s')
         if len(set(names)) != len(names):
             (twice, _), = Counter(names).most_common(1)
             raise self._reject('duplicate joint name', repr(twice))

@@ -38,6 +38,7 @@ LOAD = '~/load_force'
 LARGEST = 64 * 1024
 
 Keep = Callable[[str, int, int, bytes], None]
+SECOND = 1_000_000_000
 
 
 class Inbox:
@@ -45,13 +46,18 @@ class Inbox:
 
     def __init__(
         self, node: Node, desk: CommandDesk, setpoint: Setpoint, keep: Keep,
-        qos: QoSProfile = COMMAND_QOS,
+        log_time: Callable[[int], int], qos: QoSProfile = COMMAND_QOS,
     ):
-        """Take where commands are judged, held and recorded, and how they are received."""
+        """
+        Take where commands are judged, held and recorded, and how they are received.
+
+        log_time: gives the node's time [ns] at a time of the system.
+        """
         self._logger = node.get_logger()
         self.desk = desk
         self._setpoint = setpoint
         self._keep = keep
+        self._log_time = log_time
         self._qos = qos
         self._names: dict[str, str] = {}
         self._taken: Counter[str] = Counter()
@@ -79,8 +85,9 @@ class Inbox:
                 if len(data) > LARGEST:
                     raise self.desk.too_large(len(data), LARGEST)
                 message = read(data)
-                self._keep(full_name, received, sent, data)
-                obey(message)
+                stamp = self._log_time(received)
+                self._keep(full_name, stamp, sent, data)
+                obey(message, stamp)
             except RejectedCommandError as rejection:
                 self._logger.warning(
                     f'{topic}: message dropped: {rejection}', throttle_duration_sec=1.0)
@@ -90,18 +97,21 @@ class Inbox:
             qos_overriding_options=QoSOverridingOptions.with_default_policies())
         return full_name
 
-    def _spool_command(self, value: float) -> None:
+    def _spool_command(self, value: float, _: int) -> None:
         self._setpoint.accept(self.desk.spool_command(value))
 
-    def _commands(self, message: dict) -> None:
+    def _commands(self, message: dict, _: int) -> None:
         self._setpoint.accept(self.desk.commands(message['data']))
 
-    def _joint_commands(self, message: dict) -> None:
-        spools = self.desk.joint_commands(message['name'], message['position'])
+    def _joint_commands(self, message: dict, now: int) -> None:
+        stamp = message['header']['stamp']
+        sent = stamp['sec'] * SECOND + stamp['nanosec']
+        spools = self.desk.joint_commands(
+            message['name'], message['position'], (now - sent) / SECOND if sent else 0.0)
         if spools is not None:
             self._setpoint.accept(spools)
 
-    def _load_force(self, value: float) -> None:
+    def _load_force(self, value: float, _: int) -> None:
         self._setpoint.accept_load(self.desk.load_force(value))
 
     def _float64(self, data: bytes) -> float:

@@ -75,8 +75,8 @@ class Rig:
             setattr(self.topics, attribute, name)
         self._publishers = Publishers(node)
         self.inbox = Inbox(
-            node, self.desk, self.setpoint, self._keep_command,
-            LOCKSTEP_QOS if self.clock.answers else COMMAND_QOS)
+            node, self.desk, self.setpoint, lambda *message: self.recorder.put(*message),
+            self.clock.log_time, LOCKSTEP_QOS if self.clock.answers else COMMAND_QOS)
         try:
             self._publishers.create(parameters, self.topics, self.clock.answers)
             self.clock.connect(node)
@@ -244,9 +244,6 @@ class Rig:
     def _timeout(self, parameters: Parameters) -> float:
         """Return the silence that counts: where each command is a tick, there is none."""
         return 0.0 if self.clock.answers else parameters['command.timeout']
-
-    def _keep_command(self, topic: str, received: int, sent: int, data: bytes) -> None:
-        self.recorder.put(topic, self.clock.log_time(received), sent, data)
 
     def _disconnect(self) -> None:
         gc.unfreeze()

@@ -53,6 +53,22 @@ def test_what_is_no_number_is_dropped_and_counted(value):
     assert (own.accepted, own.rejected['not finite']) == (0, 3)
 
 
+def test_a_stamp_too_far_from_now_is_dropped_and_counted():
+    own = desk()
+    own.rules = CommandRules(1, STROKE, 1.0, 'valve', max_age=0.5)
+    for age in (0.0, 0.5, -0.5):
+        assert own.joint_commands(['valve'], [STROKE / 4], age) == (0.25, 0.25)
+    for age, reason in ((0.501, 'stale stamp'), (-0.501, 'stamp in the future'),
+                        (2.0**31, 'stale stamp')):
+        with pytest.raises(RejectedCommandError, match=rf'{reason}: [0-9.]+ s, at most 0.5 s'):
+            own.joint_commands(['valve'], [STROKE / 4], age)
+    assert (own.accepted, own.rejections) == (3, 3)
+
+
+def test_stamps_are_not_judged_unless_asked_for():
+    assert desk().joint_commands(['valve'], [STROKE / 4], 1e9) == (0.25, 0.25)
+
+
 @pytest.mark.parametrize('values', [[], [0.1], [0.1, 0.2, 0.3]])
 def test_array_of_a_wrong_length_is_dropped(values):
     own = desk(2)
@@ -129,6 +145,7 @@ def test_rules_come_from_the_parameters():
     from hydra_actuator import load_parameters
 
     rules = CommandRules.of(load_parameters(overrides={
-        'valve.spools': 2, 'valve.stroke': 1e-3, 'command.scale': 10, 'command.valve_joint': 'v'}))
-    assert rules == CommandRules(2, 1e-3, 10.0, 'v')
+        'valve.spools': 2, 'valve.stroke': 1e-3, 'command.scale': 10, 'command.valve_joint': 'v',
+        'command.max_age': 0.5}))
+    assert rules == CommandRules(2, 1e-3, 10.0, 'v', 0.5)
     assert rules.valve_joints == ('v', 'v_2')

@@ -132,13 +132,18 @@ def test_an_independent_reader_finds_all_topics_and_types(node_process, peer):
 
 
 def test_bad_commands_are_dropped_whole_counted_and_leave_no_trace(node_process, peer):
-    node = node_process()
+    node = node_process('-p', 'command.max_age:=60.0')
     heard = peer.hear(DiagnosticArray, '/diagnostics')
     spool = peer.publisher(Float64, '/actuator/spool_command')
     array = peer.publisher(Float64MultiArray, '/actuator/commands')
     joints = peer.publisher(JointState, '/joint_commands')
     load = peer.publisher(Float64, '/actuator/load_force')
     long_name = 'n' * 10_000
+
+    def stamped(seconds):
+        message = JointState(name=['valve'], position=[1e-4])
+        message.header.stamp.sec = seconds
+        return message
     bad = {
         'not finite': [
             (publisher, message(data=value)) for value in (math.nan, math.inf, -math.inf)
@@ -162,6 +167,8 @@ def test_bad_commands_are_dropped_whole_counted_and_leave_no_trace(node_process,
         'too large': [
             (array, Float64MultiArray(data=[0.5] * 10_000)),
             (joints, JointState(name=['valve'], position=[1e-4] * 10_000))],
+        'stale stamp': [(joints, stamped(-1)), (joints, stamped(1))],
+        'stamp in the future': [(joints, stamped(2**31 - 1))],
     }
     harmless = [
         (joints, JointState(name=['valve'], position=[math.nan])),
@@ -217,7 +224,7 @@ def test_commands_hold_are_clamped_and_recorded_as_they_came(node_process, peer)
     peer.send(array, sent, lambda: applied and applied[-1].data[1] == 0.25)
     full = JointState(name=['valve', 'x'], position=[-1.0])
     peer.send(joints, full, lambda: applied[-1].data[1] == -1.0)
-    # It is the arrival that counts: the sender's stamp may be of any clock.
+    # It is the arrival that counts, unless asked otherwise: a stamp may be of any clock.
     for seconds, spool in ((-1, 0.5), (2**31 - 1, -0.5)):
         full.header.stamp.sec, full.position = seconds, [5e-4 * spool]
         peer.send(joints, full, lambda spool=spool: applied[-1].data[1] == spool)
