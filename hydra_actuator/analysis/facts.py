@@ -50,9 +50,9 @@ def real_time_facts(series: Series) -> Rows:
     steps = timing.stamp_steps(series)
     if steps is not None:
         worst = np.abs(steps.deviation).max() * MICRO
-        missing = int(np.sum(np.maximum(np.rint(steps.deviation / steps.period), 0)))
-        rows += [('greatest deviation of a stamp step', f'{worst:.4g} us'),
-                 ('missing ticks between stamps', str(missing))]
+        rows += [('greatest deviation of a stamp step',
+                  f'{worst:.0f} us' if worst >= 1e4 else f'{worst:.4g} us'),
+                 ('missing ticks between stamps', str(steps.missing))]
     if len(series.send_delay) and not timing.in_simulated_time(series):
         p50, p99, top = np.percentile(series.send_delay, [50, 99, 100]) * MICRO
         rows.append(('sending after the stamp, p50 / p99 / max',
@@ -84,7 +84,9 @@ def _extreme_pressure(series: Series, word: str) -> str:
     if found is None:
         return 'none'
     value, tick, section = found
-    return (f'{value * MEGAPASCAL:.4f} MPa abs at {series.section_names[section]}, '
+    value *= MEGAPASCAL
+    told = f'{value:.4f}' if abs(value) >= 0.01 else f'{value:.3g}'
+    return (f'{told} MPa abs at {series.section_names[section]}, '
             f't = {series.time[tick]:.4f} s')
 
 
@@ -119,4 +121,4 @@ def _shown(value: object) -> str:
     """Return a value as short text."""
     if isinstance(value, (list, tuple)):
         return '[' + ', '.join(map(_shown, value)) + ']'
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    return (str(value).lower() if isinstance(value, bool) else str(value)) or 'empty'

@@ -50,7 +50,8 @@ def volumes(series: Series, shown: Window, units: Units = SI) -> Figure:
         lines.add('all', found.volume, 0, MILLILITRE, TOTAL)
     lines.add('open', found.open, 1, RATIO, {'color': TOTAL['color'], 'shape': 'hv'},
               showlegend=False)
-    layout = over_time([MILLILITRE.label('volume'), 'open cavities'], shown, units)
+    layout = over_time([MILLILITRE.label('volume'), 'open cavities'], shown, units,
+                       lines.traces)
     layout['yaxis2'].update(rangemode='tozero')
     top = int(np.argmax(found.volume))
     return Figure(

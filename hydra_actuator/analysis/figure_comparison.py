@@ -35,7 +35,7 @@ def beside(series: Series, other: Series, shown: Window, units: Units = SI) -> F
                 f'pressure {name}', *(one.pressure[:, one.section_names.index(name)]
                                       for one in (series, other)),
                 units.pressure, units.pressure_change))
-    first = Lines(series.time, shown, PISTON_POINTS, units)
+    first, apart = (Lines(series.time, shown, PISTON_POINTS, units) for _ in range(2))
     second = Lines(other.time, shown, PISTON_POINTS, units)
     titles = []
     for name, mine, theirs, scale, change in quantities:
@@ -43,13 +43,14 @@ def beside(series: Series, other: Series, shown: Window, units: Units = SI) -> F
         first.add(series.name, mine, row, scale, {'color': BLUE}, showlegend=legend)
         second.add(other.name, theirs, row, scale, {'color': ORANGE, 'dash': 'dash'},
                    showlegend=legend)
-        first.add('difference', difference(series.time, mine, other.time, theirs), row + 1, change,
+        apart.add('difference', difference(series.time, mine, other.time, theirs), row + 1, change,
                   {'color': GREEN}, showlegend=legend)
         titles += [scale.label(name), change.label('difference')]
     return Figure(
         'comparison', f'{series.name} and {other.name}',
         f'Difference: {series.name} less {other.name}, times from the first record of each.',
-        first.traces + second.traces, over_time(titles, shown, units),
+        first.traces + second.traces + apart.traces,
+        over_time(titles, shown, units, first.traces + second.traces + apart.traces),
         height=100 + 150 * len(titles), linked=True)
 
 

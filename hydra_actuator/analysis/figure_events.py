@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What happened when: faults, overruns, cavities, stops, resets, as the node reported it."""
 
-from hydra_actuator.analysis.figure import Figure, MILLI, rows_layout
+from hydra_actuator.analysis.figure import Figure, rows_layout
 from hydra_actuator.analysis.palette import BLUE, GREEN, ORANGE, VERMILION
 from hydra_actuator.analysis.series import Report, Series
 from hydra_actuator.analysis.units import SI, Units
@@ -100,7 +100,7 @@ def _with_margin(start: float, end: float) -> list[float]:
 def _caption(spans: list[tuple[str, float, float]]) -> str:
     if not spans:
         return 'Each mark is a change of what was reported. No fault was at work.'
-    words = '; '.join(f'{name} from {start * MILLI:.1f} to {end * MILLI:.1f} ms'
+    words = '; '.join(f'{name} from {start:.4g} to {end:.4g} s'
                       for name, start, end in spans[:8])
     more = f' and {len(spans) - 8} more' if len(spans) > 8 else ''
     return f'Each mark is a change of what was reported. Shaded: {words}{more}.'

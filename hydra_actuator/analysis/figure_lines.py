@@ -11,6 +11,7 @@ import numpy as np
 
 SECTION_POINTS = 12_000      # of one line; a run of 10 s at 1 kHz is shown whole
 PISTON_POINTS = 20_000
+CLOSE = 0.4                   # share of the whole range
 RATIO, KILONEWTON = Scale(1.0, '1'), Scale(1e-3, 'kN')
 
 
@@ -45,12 +46,38 @@ class Lines:
         })
 
 
-def over_time(titles: list[str], shown: Window, units: Units) -> dict:
-    """Return the layout of stacked panels over the run's time, the shown part in view."""
+def over_time(titles: list[str], shown: Window, units: Units, traces: list[dict]) -> dict:
+    """
+    Return the layout of stacked panels over the run's time, the shown part in view.
+
+    A panel whose lines move far less in that part than in the whole run has a range of its own.
+    """
     layout = rows_layout(titles)
     layout['xaxis']['title']['text'] = units.time.label('time')
     layout['xaxis']['range'] = [float(units.time(t)) for t in (shown.start, shown.end)]
+    for k in range(len(titles)):
+        name = f'y{k + 1}' if k else 'y'
+        span = _close_range([t for t in traces if t['yaxis'] == name], layout['xaxis']['range'])
+        if span:
+            layout[f'yaxis{name[1:]}']['range'] = span
     return layout
+
+
+def _close_range(traces: list[dict], shown: list[float]) -> list[float] | None:
+    """Return the range of lines in the part shown, if it is far less than that of all."""
+    parts, wholes = [], []
+    for trace in traces:
+        first, end = np.searchsorted(trace['x'], shown)
+        parts.append(trace['y'][max(first - 1, 0): end + 1])
+        wholes.append(trace['y'])
+    if not sum(map(len, parts)):
+        return None
+    part, whole = (np.concatenate(lines) for lines in (parts, wholes))
+    low, high = float(part.min()), float(part.max())
+    if high - low >= CLOSE * float(np.ptp(whole)) or high == low:
+        return None
+    margin = 0.06 * (high - low)
+    return [low - margin, high + margin]
 
 
 def sections(series: Series, shown: Window, units: Units = SI) -> Figure:
@@ -71,7 +98,7 @@ def sections(series: Series, shown: Window, units: Units = SI) -> Figure:
         'sections', 'Sections over time',
         'The two ends of one domain share a colour. Click a letter to hide it, double-click to '
         'see it alone; double-click the picture for the whole run.',
-        lines.traces, over_time(titles, shown, units), height=640, linked=True,
+        lines.traces, over_time(titles, shown, units, lines.traces), height=640, linked=True,
     )
 
 
@@ -88,7 +115,7 @@ def piston(series: Series, shown: Window, units: Units = SI) -> Figure:
     titles += [units.pressure.label('faces')] * bool(faces)
     return Figure(
         'piston', 'Piston and its two faces', '',
-        lines.traces, over_time(titles, shown, units), height=560, linked=True,
+        lines.traces, over_time(titles, shown, units, lines.traces), height=560, linked=True,
     )
 
 
@@ -108,8 +135,8 @@ def command(series: Series, shown: Window, units: Units = SI) -> Figure:
     return Figure(
         'command', 'Command and spool',
         'Commands stand at the instant they were received and hold until the next.',
-        lines.traces, over_time(titles, shown, units), height=200 + 160 * len(titles),
-        linked=True,
+        lines.traces, over_time(titles, shown, units, lines.traces),
+        height=200 + 160 * len(titles), linked=True,
     )
 
 

@@ -11,6 +11,7 @@ from hydra_actuator.analysis.figure import Figure, rows_layout
 from hydra_actuator.analysis.line_frequencies import line_frequencies
 from hydra_actuator.analysis.palette import BLUE, GREEN, line_style, ORANGE, VERMILION
 from hydra_actuator.analysis.series import Series
+from hydra_actuator.analysis.timing import stamp_steps
 from hydra_actuator.analysis.units import complete, SI, Units
 from hydra_actuator.analysis.window import Window
 from hydra_actuator.parameters.streamline import streamline_length, wave_speed
@@ -22,6 +23,7 @@ STATIONS_SHOWN = ('A', 'E', 'F', 'J')
 LINE_COLOURS = {'supply_line': BLUE, 'return_line': ORANGE, 'piston and oil': VERMILION}
 RANGE = 1e-5            # of the highest value, that the picture reaches down to
 HIGHEST = 4.0           # [c/L], that is shown
+MOST_MISSING = 0.001    # of the ticks, for a spectrum to hold
 POINTS = 8000           # of one line; of its neighbours the lowest and the highest stay
 
 
@@ -127,8 +129,13 @@ def _highest(series: Series) -> float:
 
 
 def _caption(series: Series) -> str:
+    steps = stamp_steps(series)
+    uneven = ''
+    if steps is not None and steps.missing > MOST_MISSING * len(steps.time):
+        uneven = (f' {steps.missing} ticks are missing between the states, which are taken as '
+                  'evenly spaced: the frequencies are not to be trusted.')
     if not series.parameters:
-        return 'Amplitudes, Hann window.'
-    return ('Amplitudes, Hann window. Dotted: natural frequencies without losses, valve closed: '
-            'the quarter waves of supply and return line, and the piston between its two columns '
-            'of oil, about its mean place.')
+        return f'Amplitudes, Hann window.{uneven}'
+    return (f'Amplitudes, Hann window.{uneven} Dotted: natural frequencies without losses, valve '
+            'closed: the quarter waves of supply and return line, and the piston between its two '
+            'columns of oil, about its mean place.')

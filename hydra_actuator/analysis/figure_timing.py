@@ -41,8 +41,8 @@ def real_time(series: Series) -> Figure:
             traces.append({**trace, 'line': {'color': GREEN, 'shape': 'hv'}})
     layout = rows_layout(titles)
     for k, name in enumerate(titles):
-        if name.endswith('[us]'):
-            layout['yaxis' if k == 0 else f'yaxis{k + 1}'].update(logarithmic())
+        layout['yaxis' if k == 0 else f'yaxis{k + 1}'].update(
+            logarithmic() if name.endswith('[us]') else {'exponentformat': 'none'})
     return Figure(
         'real_time', title, 'As the node reported it in its diagnostics, once a second.',
         traces, layout, height=170 * len(titles) + 120, linked=False,
@@ -78,12 +78,21 @@ def stamps(series: Series) -> Figure:
     trace = _line('step', steps.time[kept], steps.deviation[kept] * MICRO, 1, 'us', False)
     trace['line'] = {'color': BLUE, 'width': 1}
     layout = rows_layout(['step - period [us]'])
+    layout['yaxis']['exponentformat'] = 'none'
     if np.abs(steps.deviation).max() * MICRO < 1:
         layout['yaxis']['range'] = [-1, 1]
     return Figure(
-        'stamps', title, f'Period {steps.period * MICRO:.6g} us. Zero throughout: no tick is '
-        'missing and simulated time never slipped.', [trace], layout, height=320, wide=False,
+        'stamps', title, f'Period {steps.period * MICRO:.6g} us. {_about(steps)}', [trace],
+        layout, height=320, wide=False,
     )
+
+
+def _about(steps: timing.StampSteps) -> str:
+    """Return in words what the steps say."""
+    missing = steps.missing
+    if missing:
+        return f'Ticks that are missing, or that simulated time slipped by: {missing}.'
+    return 'No tick is missing and simulated time never slipped.'
 
 
 def _line(name: str, time: np.ndarray, values: np.ndarray, row: int, unit: str,

@@ -90,7 +90,8 @@ def view_of(series: Series, start: float | None = None, end: float | None = None
 
 def _surface(quantity: str) -> Callable[[View], list[Figure]]:
     def build(view: View) -> list[Figure]:
-        return [figure_fields.surface(view.series, view.field, view.shown, quantity, view.units)]
+        field = view.field.having(quantity)
+        return [figure_fields.surface(view.series, field, view.shown, quantity, view.units)]
     return build
 
 
@@ -100,14 +101,16 @@ def _map(view: View) -> list[Figure]:
     waves = full and wave_window(view.series, full, shown)
     field = full if waves else view.field
     window = waves if waves and view.part is None else shown
-    return [figure_fields.wave_map(view.series, field, window, quantity, bool(waves), view.units)
+    return [figure_fields.wave_map(view.series, field.having(quantity), window, quantity,
+                                   bool(waves), view.units)
             for quantity in figure_fields.QUANTITIES]
 
 
 def _net(view: View) -> list[Figure]:
+    moving = view.field.having('velocity')
     if view.part is None:
-        return [net_figure(view.series, view.field, view.shown, view.units)]
-    return [figure_net.net(view.series, view.field, view.part, view.units)]
+        return [net_figure(view.series, moving, view.shown, view.units)]
+    return [figure_net.net(view.series, moving, view.part, view.units)]
 
 
 def _spectrum(view: View) -> list[Figure]:
@@ -151,7 +154,8 @@ PLOTS = {
                     lambda v: [figure_lines.command(v.series, v.shown, v.units)]),
     'streamline': Plot('along the streamline at instants (--at)', (8.0, 5.5),
                        lambda v: [figure_profiles.at_instants(
-                           v.series, v.field, v.shown, v.instants, v.units)]),
+                           v.series, v.field.having('velocity'), v.shown, v.instants,
+                           v.units)]),
     'net': Plot('characteristics and the moving piston', (8.0, 5.0), _net),
     'spectrum': Plot('spectra, natural frequencies marked', (8.0, 5.5), _spectrum),
     'ranges': Plot('lowest and highest along the streamline', (8.0, 5.0), _ranges),

@@ -33,6 +33,7 @@ from hydra_actuator.analysis.variants import merged
 from hydra_actuator.analysis.window import (
     active_span,
     best_field,
+    common_window,
     wave_window,
     whole_run_buckets,
     Window,
@@ -94,7 +95,7 @@ def report_page(series: Series, units: Units = SI, other: Series | None = None) 
     """
     ways = choices(series)
     drawn = merged([_pictures(series, one, other) for one in ways.values()])
-    tables = _tables(series)
+    tables = _tables(series, 'The run' if other is None else f'The run {series.name}')
     title, warnings = f'Actuator recording {series.name}', boiling.warnings(series)
     if other is not None:
         tables = [*_differences(series, other), *tables]
@@ -107,7 +108,7 @@ def report_page(series: Series, units: Units = SI, other: Series | None = None) 
 def _pictures(series: Series, units: Units, other: Series | None) -> list[Figure]:
     """Return the figures of the page in the units given, those of a comparison first."""
     compared = [] if other is None else figure_comparison.comparison(
-        series, other, window_of(series), units)
+        series, other, common_window(series, other), units)
     return compared + figures(series, units)
 
 
@@ -176,11 +177,11 @@ def _subtitle(series: Series) -> str:
     ])
 
 
-def _tables(series: Series) -> list[tuple]:
-    """Return the tables: facts, real time, parameters."""
+def _tables(series: Series, title: str) -> list[tuple]:
+    """Return the tables: facts, under a title, real time, parameters."""
     real_time = facts.real_time_facts(series)
     changed = facts.changed_parameters(series)
-    tables = [('The run', '', facts.run_facts(series))]
+    tables = [(title, '', facts.run_facts(series))]
     if real_time:
         tables.append(('Real time over the whole run', '', real_time))
     title = 'Parameters that differ from the defaults'

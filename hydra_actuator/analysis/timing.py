@@ -23,6 +23,11 @@ class StampSteps:
     deviation: np.ndarray
     period: float
 
+    @property
+    def missing(self) -> int:
+        """How many ticks are missing between the stamps."""
+        return int(np.sum(np.maximum(np.rint(self.deviation / self.period), 0)))
+
 
 def stamp_steps(series: Series) -> StampSteps | None:
     """Return the deviations of the stamps' steps; None for fewer than two ticks."""

@@ -7,6 +7,7 @@ step. Waves are shown where the frames are closer than a quarter of the travel t
 domains; otherwise they would only alias.
 """
 
+import dataclasses
 from dataclasses import dataclass
 
 from hydra_actuator.analysis.frames import blocks_of
@@ -90,6 +91,17 @@ def window_of(series: Series) -> Window:
         return Window(start, end)
     first = min(max(largest_step(series) - 0.2 * LONGEST_WINDOW, start), end - LONGEST_WINDOW)
     return Window(first, first + LONGEST_WINDOW)
+
+
+def common_window(series: Series, other: Series) -> Window:
+    """Return the part of a run that is shown first beside another, within the time of both."""
+    shown, end = window_of(series), float(other.time[-1] - other.time[0])
+    ticks = int(np.searchsorted(series.time, end + 1e-9))
+    if shown.end <= end + 1e-9 or ticks < 2:
+        return shown
+    return window_of(dataclasses.replace(series, **{
+        name: getattr(series, name)[:ticks] for name in (
+            'time', 'position', 'velocity', 'pressure')}))
 
 
 def largest_step(series: Series) -> float:

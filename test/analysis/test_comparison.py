@@ -6,7 +6,7 @@ from dataclasses import replace
 from hydra_actuator.analysis import report
 from hydra_actuator.analysis.figure_comparison import beside, comparison, difference_map
 from hydra_actuator.analysis.units import nondimensional, units_named
-from hydra_actuator.analysis.window import window_of
+from hydra_actuator.analysis.window import common_window, window_of
 import numpy as np
 import plotly.graph_objects as go
 import pytest
@@ -43,8 +43,21 @@ def test_differing_parameters_are_listed(run):
 def test_where_the_other_run_has_ended_there_is_no_difference(run, make_run):
     short = make_run(0.5)
     figures = comparison(run, short, window_of(run))
-    assert figures[0].traces[1]['x'].max() == pytest.approx(0.5)
+    apart = [t for t in figures[0].traces if t['name'] == 'difference']
+    assert apart[0]['x'].max() == pytest.approx(0.5)
     assert figures[1].missing
+
+
+def test_what_is_shown_first_lies_within_both_runs(run, make_run):
+    for other in (make_run(0.5), run):
+        shown = common_window(run, other)
+        assert shown.end == other.time[-1]
+        assert shown.end - shown.start == pytest.approx(3 / 50, rel=1e-2)
+        lines, *maps = comparison(run, other, shown)
+        assert not any(one.missing for one in maps)
+        for trace in lines.traces:
+            within = (trace['x'] >= shown.start) & (trace['x'] <= shown.end)
+            assert np.isfinite(trace['y'][within]).sum() > 50
 
 
 @pytest.mark.parametrize('units', [units_named('bar'), 'nondimensional'])

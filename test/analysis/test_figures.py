@@ -3,7 +3,14 @@
 
 from dataclasses import replace
 
-from hydra_actuator.analysis import facts, figure_fields, figure_lines, figure_timing, report
+from hydra_actuator.analysis import (
+    facts,
+    figure_fields,
+    figure_lines,
+    figure_spectrum,
+    figure_timing,
+    report,
+)
 from hydra_actuator.analysis.window import window_of
 import numpy as np
 import plotly.graph_objects as go
@@ -39,6 +46,14 @@ def test_station_lines_hold_the_pressures_in_megapascals(run):
     line = next(t for t in figure.traces if t['name'] == 'C' and t['yaxis'] == 'y')
     np.testing.assert_allclose(line['y'], run.pressure[:, 3] * 1e-6, rtol=1e-6)
     np.testing.assert_array_equal(line['x'], run.time)
+
+
+def test_a_panel_whose_part_shown_is_quiet_has_the_range_of_that_part(run):
+    moved = np.where(run.time < 0.2, run.position + 1.0, run.position)
+    layout = figure_lines.piston(replace(run, position=moved), window_of(run)).layout
+    assert layout['yaxis']['range'] == pytest.approx([-12 * 1.12, 12 * 1.12], rel=1e-2)
+    assert 'range' not in layout['yaxis2']
+    assert 'range' not in figure_lines.piston(run, window_of(run)).layout['yaxis']
 
 
 def test_a_long_run_is_decimated_and_keeps_its_extremes(make_run):
@@ -105,9 +120,19 @@ def test_a_missing_tick_is_seen_in_the_stamps(run):
         name: getattr(run, name)[kept]
         for name in ('time', 'stamps', 'position', 'velocity', 'pressure', 'send_delay')
     })
+    assert 'slipped by: 1.' in figure_timing.stamps(gap).caption
+    assert 'No tick is missing' in figure_timing.stamps(run).caption
     line = figure_timing.stamps(gap).traces[0]
     assert line['y'].max() == pytest.approx(1000)
     assert dict(facts.real_time_facts(gap))['missing ticks between stamps'] == '1'
+
+
+@pytest.mark.parametrize('slipped, said', [(0, False), (1, False), (2, True)])
+def test_spectra_of_a_run_that_slipped_say_so(run, slipped, said):
+    slip = 1_000_000 * (np.arange(len(run.time)) >= 500)
+    figure = figure_spectrum.spectrum(replace(run, stamps=run.stamps + slipped * slip),
+                                      window_of(run))
+    assert ('not to be trusted' in figure.caption) == said
 
 
 def test_what_was_not_recorded_is_said(run):

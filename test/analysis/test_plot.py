@@ -50,6 +50,17 @@ def test_every_figure_draws_its_data_on_axes_with_units(run, name):
     assert sum('[' in label for label in labels) >= 1
 
 
+@pytest.mark.parametrize('name', ['surface-velocity', 'xt', 'net', 'streamline'])
+def test_velocities_recorded_more_slowly_than_pressures_are_drawn(run, name):
+    velocity = run.flow_velocity.copy()
+    velocity[np.arange(len(velocity)) % 10 > 0] = np.nan
+    for figure in PLOTS[name].build(view_of(replace(run, flow_velocity=velocity, field=None))):
+        for trace in figure.traces:
+            values = trace.get('z', trace['x' if name == 'net' else 'y'])
+            # Lines of the net lie between gaps.
+            assert np.isfinite(values).mean() > (0.2 if name == 'net' else 0.99)
+
+
 @pytest.mark.parametrize('suffix, start', [
     ('png', b'\x89PNG'), ('svg', b'<?xml'), ('pdf', b'%PDF')])
 def test_the_suffix_names_the_format(run, tmp_path, suffix, start):

@@ -91,6 +91,7 @@
     }
     // A finger on a picture scrolls the page.
     if (narrow() && !layout.scene) layout.dragmode = false;
+    if (narrow() && layout.sliders) layout.sliders[0].pad.t = 60;
     if (narrow() && layout.scene) {
       layout.scene.camera.eye = { x: 1.95, y: -2.7, z: 1.3 };
       layout.scene.yaxis.title.font = { size: 9 };
@@ -99,6 +100,15 @@
   }
 
   const linked = [];
+  // Axes whose range is that of the part of the run shown first; it does not hold for another.
+  const fitted = new Map();
+
+  function unfit(plot) {
+    const axes = fitted.get(plot) || [];
+    fitted.set(plot, []);
+    return Object.fromEntries(axes.map((key) => [`${key}.autorange`, true]));
+  }
+
   let following = false;
 
   async function follow(source, change) {
@@ -108,7 +118,7 @@
     if (!range && !change['xaxis.autorange']) return;
     following = true;
     const update = range ? { 'xaxis.range': range } : { 'xaxis.autorange': true };
-    await Promise.all(linked.filter((plot) => plot !== source).map((plot) => Plotly.relayout(plot, update)));
+    await Promise.all(linked.filter((plot) => plot !== source).map((plot) => Plotly.relayout(plot, { ...update, ...unfit(plot) })));
     following = false;
   }
 
@@ -130,6 +140,7 @@
     }
     if (figure.linked) {
       linked.push(plot);
+      fitted.set(plot, Object.keys(figure.layout).filter((key) => key.startsWith('yaxis') && figure.layout[key].range));
       plot.on('plotly_relayout', (change) => follow(plot, change));
     }
   }
@@ -140,7 +151,12 @@
     const layout = layoutOf(figure);
     const before = plot.layout;
     if (layout.scene) layout.scene.camera = before.scene.camera;
-    if (figure.linked && before.xaxis.title.text === layout.xaxis.title.text) layout.xaxis.range = before.xaxis.range;
+    if (figure.linked && before.xaxis.title.text === layout.xaxis.title.text) {
+      layout.xaxis.range = before.xaxis.range;
+      for (const key of Object.keys(layout).filter((one) => one.startsWith('yaxis'))) {
+        if (!fitted.get(plot).includes(key)) delete layout[key].range;
+      }
+    }
     const traces = resolve(figure.traces);
     traces.forEach((trace, k) => { if (plot.data[k].visible !== undefined) trace.visible = plot.data[k].visible; });
     if (layout.updatemenus && !figure.frames.length) layout.updatemenus[0].active = before.updatemenus[0].active;
