@@ -23,6 +23,7 @@ import math
 from hydra_actuator.core.cavity import face_strength
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.fluid import pressure_of
+from hydra_actuator.core.lanes import at_most, load, store, WIDTH
 import numpy as np
 
 OPENS, CLOSES = 0.01, 0.02
@@ -104,10 +105,9 @@ def note_lowest(model, state):
     nodes = state.star.size
     for d in range(model.start.size):
         first = model.start[d]
-        whole = slice(first, first + state.last[d] + 1)
-        star, lowest = state.star[whole], state.lowest_star[whole]
-        for i in range(star.size):
-            lowest[i] = star[i] if star[i] < lowest[i] else lowest[i]
+        for i in range(first, first + state.last[d] + 1, WIDTH):
+            lowest = at_most(load(state.star, i), load(state.lowest_star, i))
+            store(state.lowest_star, i, lowest)
         face = nodes + d
         state.lowest_star[face] = min(state.lowest_star[face], state.end_star[2 * d + 1])
 

@@ -74,6 +74,18 @@ def memory_constants(radius: float, viscosity: float,
 
 
 @formula
+def damping_at(speed, table, table_scale):
+    """Return h [1/s] at a speed [m/s]; table and table_scale as in `steady_drag`."""
+    damping, start = table
+    place = math.sqrt(speed) * table_scale
+    # so put that what is no number has a place in the table too
+    place = place if place < LAST_PLACE else LAST_PLACE
+    k = int(place)
+    low = damping[start + k]
+    return low + (place - k) * (damping[start + k + 1] - low)
+
+
+@formula
 def steady_drag(velocity, loss_coefficient, table, table_scale):
     """
     Return the steady deceleration [m/s^2] at a velocity [m/s].
@@ -81,12 +93,5 @@ def steady_drag(velocity, loss_coefficient, table, table_scale):
     table: (damping h [1/s] over sqrt|u| of all lines, where this line's begins);
     table_scale: entries per sqrt(m/s).
     """
-    damping, start = table
     size = abs(velocity)
-    place = math.sqrt(size) * table_scale
-    # so put that what is no number has a place in the table too
-    place = place if place < LAST_PLACE else LAST_PLACE
-    k = int(place)
-    low = damping[start + k]
-    h = low + (place - k) * (damping[start + k + 1] - low)
-    return velocity * (0.5 * loss_coefficient * size + h)
+    return velocity * (0.5 * loss_coefficient * size + damping_at(size, table, table_scale))

@@ -5,11 +5,12 @@ Four neighbouring nodes as one value, so that a loop over nodes is vector code b
 A compiler makes vector code of a plain loop only where it can prove, or check at each entry, that
 no array overlaps another, and has a second loop for what is left over; for the short domains of a
 chain that cost a quarter of the sweep. `load` and `store` move WIDTH doubles from and to an array
-at an index, which must not be negative, without a check; +, -, *, / and abs work lane by lane, a
-float stands in all lanes. Processors with shorter vectors get two or four operations for one.
-Each lane has the bits that the same formula gives with floats.
+at an index, which must not be negative, without a check; +, -, *, /, abs and sqrt work lane by
+lane, a float stands in all lanes. Processors with shorter vectors get two or four operations for
+one. Each lane has the bits that the same formula gives with floats.
 """
 
+import math
 import operator
 
 from llvmlite import ir
@@ -89,6 +90,7 @@ def _declared(module, name):
 
 
 _define_function(abs, 'fabs')
+_define_function(math.sqrt, 'sqrt')
 
 
 def _place(context, builder, signed, arguments):
@@ -112,3 +114,61 @@ def store(typing_context, array, index, lanes):
         builder.store(arguments[2], _place(context, builder, signed, arguments), align=8)
         return context.get_dummy_value()
     return types.void(array, index, LANES), generate
+
+
+@intrinsic
+def where_positive(typing_context, lanes, then, otherwise):
+    """Return `then` in the lanes that are above 0, `otherwise` in the others and where NaN is."""
+    def generate(context, builder, signed, arguments):
+        zero = ir.Constant(_VECTOR, [0.0] * WIDTH)
+        above = builder.fcmp_ordered('>', arguments[0], zero)
+        return builder.select(above, arguments[1], arguments[2])
+    return LANES(LANES, LANES, LANES), generate
+
+
+@intrinsic
+def at_most(typing_context, lanes, limit):
+    """Return the lanes, or the limit (a float or lanes) where they are not below it."""
+    return LANES(LANES, limit), _limited('<')
+
+
+@intrinsic
+def at_least(typing_context, lanes, limit):
+    """Return the lanes, or the limit (a float or lanes) where they are not above it."""
+    return LANES(LANES, limit), _limited('>')
+
+
+def _limited(comparison):
+    def generate(context, builder, signed, arguments):
+        lanes, limit = arguments
+        if signed.args[1] is not LANES:
+            limit = _in_all_lanes(builder, limit)
+        inside = builder.fcmp_ordered(comparison, lanes, limit)
+        return builder.select(inside, lanes, limit)
+    return generate
+
+
+@intrinsic
+def look_up(typing_context, table, start, places):
+    """
+    Return (value at the place rounded down, the next, what was rounded off), lane by lane.
+
+    table: C-contiguous doubles, of which places count from `start`; places must not be negative.
+    """
+    def generate(context, builder, signed, arguments):
+        entries, first, places = arguments
+        array = make_array(signed.args[0])(context, builder, entries)
+        data = builder.gep(array.data, [first])
+        counts = ir.VectorType(ir.IntType(32), WIDTH)
+        whole = builder.fptosi(places, counts)
+        low = high = ir.Constant(_VECTOR, ir.Undefined)
+        for k in range(WIDTH):
+            lane = ir.Constant(ir.IntType(32), k)
+            index = builder.zext(builder.extract_element(whole, lane), ir.IntType(64))
+            here = builder.gep(data, [index])
+            after = builder.gep(here, [ir.Constant(ir.IntType(64), 1)])
+            low = builder.insert_element(low, builder.load(here), lane)
+            high = builder.insert_element(high, builder.load(after), lane)
+        rest = builder.fsub(places, builder.sitofp(whole, _VECTOR))
+        return context.make_tuple(builder, signed.return_type, (low, high, rest))
+    return types.UniTuple(LANES, 3)(table, types.intp, LANES), generate

@@ -102,19 +102,30 @@ def sweep(waves, new_waves, mesh, nodes, scheme):
 
 
 @formula
-def sweep_domains(model, state, passes):
+def inner_nodes(model, state, d):
     """
-    Sweep all nodes between the ends of every domain, into new_p and new_q.
+    Return (first, end) of the nodes between the ends of a domain.
 
     In a chamber also the last whole node and the next: it may appear.
     """
-    waves, new_waves = (state.wave_p, state.wave_q), (state.new_p, state.new_q)
+    first = model.start[d] + 1
+    return first, first + state.last[d] - 1 + 2 * model.moving[d]
+
+
+@formula
+def sweep_domain(model, state, nodes, passes):
+    """Sweep nodes (first, end) of one domain, into new_p and new_q."""
+    first, _ = nodes
+    sweep((state.wave_p, state.wave_q), (state.new_p, state.new_q),
+          (model.courant[first], model.slope[first], model.friction[first]), nodes,
+          (model.third_order, passes))
+
+
+@formula
+def sweep_domains(model, state, passes):
+    """Sweep all nodes between the ends of every domain, into new_p and new_q."""
     for d in range(model.start.size):
-        first = model.start[d] + 1
-        end = first + state.last[d] - 1 + 2 * model.moving[d]
-        sweep(waves, new_waves,
-              (model.courant[first], model.slope[first], model.friction[first]),
-              (first, end), (model.third_order, passes))
+        sweep_domain(model, state, inner_nodes(model, state, d), passes)
 
 
 @formula

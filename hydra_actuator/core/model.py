@@ -92,7 +92,8 @@ def build_chain(oil: Oil, domains: list[Domain], junctions: list[Junction], mesh
     for d, domain in enumerate(domains):
         spacing[d], last[d], capacity[d] = _cells(domain, mesh)
     moving = np.array([int(domain.longest > 0.0) for domain in domains])
-    after = np.where(moving == 1, GHOSTS_BEYOND_FACE, GHOSTS)
+    # loops that go WIDTH nodes at a time may write beyond the last one, not into the next domain
+    after = np.where(moving == 1, GHOSTS_BEYOND_FACE, max(GHOSTS, WIDTH - 1 - GHOSTS))
     room = GHOSTS + capacity + 1 + after
     start = GHOSTS + SPARE + np.concatenate(([0], np.cumsum(room)[:-1])).astype(np.int64)
     of_node = np.concatenate((
@@ -206,11 +207,9 @@ def _empty_state(domains: int, nodes: int) -> State:
         old_length=np.zeros(domains), old_velocity=np.zeros(domains),
         end_wave=np.zeros(2 * domains), end_velocity=np.zeros(2 * domains),
         end_velocity_before=np.zeros(2 * domains), end_theta=np.zeros(2 * domains),
-        face_p=np.zeros(domains),
-        face_q=np.zeros((domains, 3)), theta_p=np.zeros(nodes), theta_q=np.zeros(nodes),
-        drag=np.zeros(nodes), new_drag=np.zeros(nodes), memory=np.zeros((TERMS, nodes)),
-        fading=np.zeros(nodes), change=np.zeros(nodes), velocity=np.zeros(nodes),
-        place=np.zeros(nodes), damping=np.zeros(nodes), star=np.ones(nodes),
+        face_p=np.zeros(domains), face_q=np.zeros((domains, 3)),
+        drag=np.zeros(nodes), memory=np.zeros((TERMS, nodes)), fading=np.zeros(nodes),
+        damping=np.zeros(nodes), star=np.ones(nodes),
         end_star=np.ones(2 * domains), strength=np.zeros(nodes), face_held=np.zeros(domains),
         lowest_star=np.full(nodes + domains, np.inf),
         was_open=np.zeros(nodes + domains, np.int64), cavities=np.zeros(1, CAVITY_COUNTS),

@@ -127,15 +127,9 @@ class State(Handle):
     end_theta: np.ndarray       # (2 D,) foot of the arriving wave [cells]
     face_p: np.ndarray          # (D,) P at a moving face
     face_q: np.ndarray          # (D, 3) Q at a moving face now, one and two steps ago
-    theta_p: np.ndarray         # (N,) work: feet of the characteristics [cells]
-    theta_q: np.ndarray         # (N,)
     drag: np.ndarray            # (N,) J of the wall's friction [m/s^2]
-    new_drag: np.ndarray        # (N,) work: J estimated at arrival
     memory: np.ndarray          # (TERMS, N) of the friction, as drag [m/s^2]
     fading: np.ndarray          # (N,) what the memory will be if u stays [m/s^2]
-    change: np.ndarray          # (N,) work: of u in the step [m/s]
-    velocity: np.ndarray        # (N,) work: u at arrival [m/s]
-    place: np.ndarray           # (N,) work: in the tables of damping
     damping: np.ndarray         # (N,) work: h [1/s]
     star: np.ndarray            # (N,) absolute less vapour pressure where there is gas [Pa]
     end_star: np.ndarray        # (2 D,) the same at the ends

@@ -14,12 +14,7 @@ from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.drag import drag_at, remember_drag, sweep_with_drag
 from hydra_actuator.core.end import state_at
 from hydra_actuator.core.junctions import end_of, solve_junction
-from hydra_actuator.core.line import (
-    arriving_wave,
-    fill_ghost,
-    GHOSTS_BEYOND_FACE,
-    sweep_domains,
-)
+from hydra_actuator.core.line import arriving_wave, fill_ghost, sweep_domains
 from hydra_actuator.core.records import VALVE
 from hydra_actuator.core.valve import edge_coefficients, move_spool
 
@@ -91,25 +86,9 @@ def continue_beyond_ends(model, state):
             fraction = state.old_length[d] / model.spacing[d] - cells
             extend_to_face(state.wave_p, last, cells, (state.face_p[d], fraction), False)
             extend_to_face(state.wave_q, last, cells, (state.face_q[d, 0], fraction), True)
-            if len(model.extras) > 0:
-                still_beyond_face(model, state, d)
         else:
             fill_ghost(state.wave_p, last, -1, cells, False)
             fill_ghost(state.wave_q, last, -1, cells, True)
-
-
-@formula
-def still_beyond_face(model, state, d):
-    """
-    Keep what lies beyond the ghosts of a moving face from growing.
-
-    Nothing reads those waves, but friction and gas of nodes that will appear remember them.
-    """
-    last = model.start[d] + state.last[d]
-    for i in range(last + GHOSTS_BEYOND_FACE + 1,
-                   model.start[d] + model.capacity[d] + GHOSTS_BEYOND_FACE + 1):
-        state.wave_p[i] = state.wave_p[last]
-        state.wave_q[i] = state.wave_q[last]
 
 
 @formula
