@@ -2,6 +2,7 @@
 """The verb `bench`: speed of the solver on this machine."""
 
 import argparse
+from importlib.util import find_spec
 import math
 import os
 from pathlib import Path
@@ -43,7 +44,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help='where the time of a step goes, and how far it is from a bare loop '
                              'of the same arithmetic and memory traffic')
     parser.add_argument('--startup', action='store_true',
-                        help='from import to the first step, without and with kept kernels')
+                        help='from import to the first step, and of a node from start until it '
+                             'is active, without and with kept kernels')
     parser.add_argument('--guard', metavar='F',
                         help='compare ratios to the bare loop with the last record in F of a '
                              'processor like this; exit code 1 where one is much larger')
@@ -96,8 +98,6 @@ def _row(name: str, times) -> str:
 
 
 def _need_ros() -> None:
-    from importlib.util import find_spec
-
     if find_spec('rclpy') is None:
         raise InputError('rclpy is not installed: source a ROS 2 setup, or make venv')
 
@@ -186,6 +186,11 @@ def _startup() -> int:
     print(f'{"from start to first step":<32}{cold.total:10.2f}{warm.total:10.2f}')
     print(f'{"the same by the clock [s]":<32}{cold.elapsed:10.2f}{warm.elapsed:10.2f}')
     print(f'{"largest memory [MB]":<32}{cold.memory:10.0f}{warm.memory:10.0f}')
+    if find_spec('rclpy') is not None:
+        from hydra_actuator.ros.activation import measure_activations
+        columns = zip(*measure_activations())
+        print(f'{"node: from start to active":<32}' + '{:10.2f}{:10.2f}'.format(*next(columns)))
+        print(f'{"the same by the clock [s]":<32}' + '{:10.2f}{:10.2f}'.format(*next(columns)))
     return 0
 
 
