@@ -10,14 +10,15 @@ compiler may keep what it has read from it; what the arrays hold may change.
 
 from dataclasses import dataclass, fields
 import hashlib
+import operator
 
 from llvmlite import ir
 from numba import typeof
 from numba.core import cgutils, types
-from numba.core.datamodel.models import OpaqueModel
+from numba.core.datamodel.models import ArrayModel, OpaqueModel
 from numba.core.imputils import lower_getattr_generic
 from numba.core.typing.templates import AttributeTemplate, infer_getattr
-from numba.extending import NativeValue, register_model, unbox
+from numba.extending import lower_builtin, NativeValue, register_model, unbox
 from numba.np.arrayobj import make_array, populate_array
 import numpy as np
 
@@ -65,6 +66,22 @@ class Handle:
         return type(self), tuple(None if isinstance(v, Handle) else v for v in values)
 
 
+class HandleArray(types.Array):
+    """
+    The type of a one-dimensional array of numbers in a Handle, whose indices are never negative.
+
+    Without this every index that is not proven otherwise costs a comparison, a selection and the
+    array's size. An index of -1 reads what lies before the array, as in C.
+    """
+
+    def __init__(self, dtype: types.Type) -> None:
+        """Name the type by that of its elements."""
+        super().__init__(dtype, 1, 'C', name=f'HandleArray({dtype})')
+
+
+register_model(HandleArray)(ArrayModel)
+
+
 def _type_of(value: object) -> types.Type | None:
     if value is None or isinstance(value, Handle):
         return None
@@ -72,7 +89,11 @@ def _type_of(value: object) -> types.Type | None:
         return types.UniTuple(types.intp, len(value))
     if isinstance(value, float):
         return types.float64
-    return typeof(value)
+    found = typeof(value)
+    if isinstance(found, types.Array) and found.ndim == 1 and isinstance(
+            found.dtype, types.Number):
+        return HandleArray(found.dtype)
+    return found
 
 
 def _words(value: object) -> list[int]:
@@ -118,6 +139,27 @@ def _read(context, builder, typ, address, attribute):
     if isinstance(field, types.Array):
         return _array(context, builder, field, _load_words(builder, address, word, field.ndim))
     return _load(builder, address, word, context.get_value_type(field))
+
+
+def _element(context, builder, signed, arguments):
+    """Return the address of an element of a HandleArray."""
+    array = make_array(signed.args[0])(context, builder, arguments[0])
+    index = context.cast(builder, arguments[1], signed.args[1], types.intp)
+    return builder.gep(array.data, [index])
+
+
+@lower_builtin(operator.getitem, HandleArray, types.Integer)
+def _get_item(context, builder, signed, arguments):
+    place = _element(context, builder, signed, arguments)
+    return context.unpack_value(builder, signed.args[0].dtype, place)
+
+
+@lower_builtin(operator.setitem, HandleArray, types.Integer, types.Any)
+def _set_item(context, builder, signed, arguments):
+    place = _element(context, builder, signed, arguments)
+    value = context.cast(builder, arguments[2], signed.args[2], signed.args[0].dtype)
+    context.pack_value(builder, signed.args[0].dtype, value, place)
+    return context.get_dummy_value()
 
 
 def _array(context, builder, typ, words):

@@ -74,3 +74,27 @@ def test_a_copy_outlives_what_it_was_made_from(copied):
 def test_an_array_with_gaps_is_refused():
     with pytest.raises(TypeError, match='C-contiguous'):
         Thing(0.1, 1, np.zeros(6)[::2], np.zeros((1, 1), int), ())
+
+
+@dataclass(frozen=True, eq=False)
+class Numbers(Handle):
+    values: np.ndarray
+    counts: np.ndarray
+
+
+@formula
+def shift(record, by):
+    for i in range(by, record.values.size):
+        record.values[i - by] = record.values[i] + record.counts[i]
+    record.counts[by] = record.values.size
+    total = 0.0
+    for value in record.values[by:]:
+        total += value
+    return total
+
+
+def test_elements_and_slices_of_an_array_are_read_and_written():
+    record = Numbers(np.array([1.0, 2.0, 3.0, 4.0]), np.array([10, 20, 30, 40]))
+    assert shift(record, 1) == 33.0 + 44.0 + 4.0
+    assert record.values.tolist() == [22.0, 33.0, 44.0, 4.0]
+    assert record.counts.tolist() == [10, 4, 30, 40]
