@@ -39,9 +39,9 @@ def cubic(ahead, here, behind, far, third_order):
     against the direction of travel; third_order 1 is the cubic, 0 the line through 0 and 1.
     """
     slope = behind - here
-    half = 0.5 * third_order
-    second = half * (slope + (ahead - here))
-    third = (third_order * (1.0 / 6.0)) * (far - ahead) - half * slope
+    half_slope = (0.5 * third_order) * slope
+    second = (0.5 * third_order) * (ahead - here) + half_slope
+    third = (third_order * (1.0 / 6.0)) * (far - ahead) - half_slope
     return slope - second - third, second, third
 
 
@@ -76,27 +76,22 @@ def sweep(waves, new_waves, mesh, nodes, scheme):
         a_1, a_2, a_3 = cubic(p_ahead, p_here, p_behind, p_far, third_order)
         b_1, b_2, b_3 = cubic(q_ahead, q_here, q_behind, q_far, third_order)
         here = p_here - q_here
-        rise_p = (p_behind - q_ahead) - here
-        rise_q = (p_ahead - q_behind) - here
-        foot_p = here + sigma * rise_p
-        foot_q = here + sigma * rise_q
-        theta_p = sigma + kappa * foot_p
-        theta_q = sigma - kappa * foot_q
-        p = p_here + theta_p * (a_1 + theta_p * (a_2 + theta_p * a_3))
-        q = q_here + theta_q * (b_1 + theta_q * (b_2 + theta_q * b_3))
-        p -= loss * (foot_p * abs(foot_p))
-        q += loss * (foot_q * abs(foot_q))
+        rise_p = (p_behind - p_here) - (q_ahead - q_here)
+        rise_q = (p_ahead - p_here) - (q_behind - q_here)
+        foot_p, foot_q = here + sigma * rise_p, here + sigma * rise_q
+        theta_p, theta_q = sigma + kappa * foot_p, sigma - kappa * foot_q
+        lost_p, lost_q = loss * (foot_p * abs(foot_p)), loss * (foot_q * abs(foot_q))
         for _ in range(len(passes) - 1):
-            arrival = p - q
+            arrival = (here - lost_p - lost_q) + theta_p * (a_1 + theta_p * (a_2 + theta_p * a_3))
+            arrival -= theta_q * (b_1 + theta_q * (b_2 + theta_q * b_3))
             drag = arrival * abs(arrival)
-            foot_p = here + theta_p * rise_p
-            foot_q = here + theta_q * rise_q
+            foot_p, foot_q = here + theta_p * rise_p, here + theta_q * rise_q
             theta_p = sigma + half_kappa * (foot_p + arrival)
             theta_q = sigma - half_kappa * (foot_q + arrival)
-            p = p_here + theta_p * (a_1 + theta_p * (a_2 + theta_p * a_3))
-            q = q_here + theta_q * (b_1 + theta_q * (b_2 + theta_q * b_3))
-            p -= half_loss * (foot_p * abs(foot_p) + drag)
-            q += half_loss * (foot_q * abs(foot_q) + drag)
+            lost_p = half_loss * (foot_p * abs(foot_p) + drag)
+            lost_q = half_loss * (foot_q * abs(foot_q) + drag)
+        p = (p_here - lost_p) + theta_p * (a_1 + theta_p * (a_2 + theta_p * a_3))
+        q = (q_here + lost_q) + theta_q * (b_1 + theta_q * (b_2 + theta_q * b_3))
         store(new_p, i, p)
         store(new_q, i, q)
 
