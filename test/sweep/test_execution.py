@@ -9,7 +9,7 @@ from hydra_actuator.errors import InputError
 from hydra_actuator.sweep import execution
 from hydra_actuator.sweep.execution import sweep
 from hydra_actuator.sweep.journal import FILE as JOURNAL
-from hydra_actuator.sweep.run import DONE, run_one
+from hydra_actuator.sweep.run import DONE, LOST, run_one
 from hydra_actuator.sweep.tables import FAILED, load_table, NETCDF
 import pytest
 import xarray
@@ -100,6 +100,23 @@ def test_a_killed_worker_costs_no_run(make_plan, cluster, where, tmp_path):
     assert sorted(outcomes) == list(range(24))
     assert all(one.status == DONE for one in outcomes.values())
     assert len(lines(tmp_path)) == 24
+
+
+@pytest.mark.soak
+def test_a_run_that_kills_every_worker_is_told_and_the_others_are_done(
+        make_plan, where, tmp_path, monkeypatch):
+    plan, run_chunk, deadly = make_plan(MASS, count=24, duration=0.02), execution.run_chunk, 5
+
+    def die_of_one(asked, base, drive):
+        if deadly in [run for run, _ in asked]:
+            os._exit(1)
+        return run_chunk(asked, base, drive)
+    monkeypatch.setattr(execution, 'run_chunk', die_of_one)
+    outcomes = sweep(plan, tmp_path, where)
+    lost = outcomes.pop(deadly)
+    assert (lost.status, lost.reason) == (LOST, 'its workers died with it')
+    assert sorted(outcomes) == [run for run in range(24) if run != deadly]
+    assert {one.status for one in outcomes.values()} == {DONE}
 
 
 def test_failed_runs_are_done_again_only_if_asked(make_plan, where, tmp_path):
