@@ -112,23 +112,23 @@ class _Walk:
         *_, size, crc, length = CHUNK_HEAD.unpack_from(self._content[start:stop])
         at = start + CHUNK_HEAD.size + length
         compression = self._content[start + CHUNK_HEAD.size: at].tobytes().decode()
-        block = Block(self._file, at + 8, stop, size,
-                      partial(decompressed, compression, size=size) if compression else None)
+        unpack = partial(decompressed, compression, size=size) if compression else None
+        content = self._content[at + 8: stop]
         try:
-            with block.opened() as content:
-                sound = len(content) == size and (not crc or zlib.crc32(content) == crc)
+            content = unpack(content) if unpack else content
         except RecordingError as error:
             raise RecordingError(f'{self._found.path} is damaged: {error}') from None
-        if not sound:
+        if len(content) != size or (crc and zlib.crc32(content) != crc):
             raise RecordingError(f'{self._found.path} is damaged: checksum of the chunk at byte '
                                  f'{start - RECORD_HEAD.size}')
-        return block
+        return Block(self._file, at + 8, stop, size, unpack)
 
     def _index(self, start: int, stop: int) -> None:
         channel, size = _INDEX_HEAD.unpack_from(self._content, start)
         if size:
             pairs = np.frombuffer(self._content, '<i8', size // 8, start + _INDEX_HEAD.size)
-            offsets = np.sort(pairs[1::2])
+            offsets = pairs[1::2].copy()
+            offsets.sort()
             if 0 <= offsets[0] and offsets[-1] <= _SMALL:
                 offsets = offsets.astype(np.int32)
             self._found.blocks[-1].offsets[channel] = offsets
