@@ -9,7 +9,7 @@ The actuator: parameters, a state, and the call that moves it. No ROS needed.
 from collections.abc import Callable, Mapping
 import math
 
-from hydra_actuator.actuator_state import ActuatorState, Cavities, MassBalance, state_of
+from hydra_actuator.actuator_state import ActuatorState, state_of
 from hydra_actuator.assembly import (
     INPUTS,
     LOAD_FORCE,
@@ -33,6 +33,7 @@ from hydra_actuator.plant_faults import apply_plant_faults, set_air, void_fracti
 from hydra_actuator.signals import spool_pair
 from hydra_actuator.solver import EXTREMES, note_extremes, Solver
 from hydra_actuator.supply import Supply
+from hydra_actuator.tally import Tally
 import numpy as np
 
 # Periods without end.
@@ -112,29 +113,9 @@ class Actuator:
         return int(self._state.step[0]) // self.steps_per_period
 
     @property
-    def stop_hits(self) -> int:
-        """How often the piston has run into an end stop."""
-        return int(self._state.piston[0]['stop_hits'])
-
-    @property
-    def cavities(self) -> Cavities:
-        """How many cavities there are and were, as of the last whole period."""
-        return Cavities(*self._state.cavities[0].item())
-
-    @property
-    def mass_balance(self) -> MassBalance:
-        """What is missing of the oil's mass, and how much has passed the pump and the tank."""
-        return MassBalance(*self._state.mass[['passed', 'residual']][0].item())
-
-    @property
-    def vacuum_ticks(self) -> int:
-        """At how many ticks absolute pressure was below 0 somewhere: possible without gas only."""
-        return int(self._extremes['vacuum_ticks'][0])
-
-    @property
-    def largest_mach(self) -> float:
-        """Largest |u|/c at the end of any tick."""
-        return float(self._extremes['largest_mach'][0])
+    def tally(self) -> Tally:
+        """What has happened since the start or the last reset."""
+        return Tally(self._state, self._extremes)
 
     @property
     def solver(self) -> Solver:

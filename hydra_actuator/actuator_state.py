@@ -29,29 +29,6 @@ class ActuatorState:
     void_fraction: dict[str, float]
 
 
-@dataclass(frozen=True)
-class Cavities:
-    """Cavities open now, opened and collapsed since the start, largest volume [m^3] of all."""
-
-    open: int
-    opened: int
-    collapsed: int
-    largest: float
-
-
-@dataclass(frozen=True)
-class MassBalance:
-    """
-    Oil since the start, or since the gas in it was last changed by a fault.
-
-    passed [kg] through the outer ends, half of pump's and tank's either way; residual [kg]: in -
-    out - stored, as of the last weighing. See hydra_actuator.core.mass.
-    """
-
-    passed: float
-    residual: float
-
-
 def state_of(row: np.ndarray, channels: Channels, void_fractions: np.ndarray) -> ActuatorState:
     """Return the state that an observation row tells; void_fractions: gas of each section."""
     names = channels.section_names

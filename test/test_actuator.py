@@ -3,10 +3,11 @@
 
 import math
 
-from hydra_actuator.actuator import Actuator, Cavities, SolverError
+from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.channels import Channels, DOMAINS, STATIONS
 from hydra_actuator.core.observe import NOT_A_NUMBER, TOO_FAST
 from hydra_actuator.parameters import ParameterError, Parameters
+from hydra_actuator.tally import Cavities
 import numpy as np
 import pytest
 
@@ -243,7 +244,7 @@ def test_piston_stops_at_the_end_of_its_stroke():
     state = actuator.advance(1.0, spool=1.0)
     assert state.position == 0.1
     assert state.velocity == 0.0
-    assert actuator.stop_hits == 1
+    assert actuator.tally.stop_hits == 1
     assert actuator.advance(0.2, spool=-1.0).position < 0.05
 
 
@@ -366,7 +367,7 @@ def sine(actuator: Actuator, ticks: int) -> np.ndarray:
 def test_oil_that_boils_is_seen_in_row_state_and_counts():
     actuator = boiling()
     rows, columns = sine(actuator, 60), actuator.channels
-    counts = actuator.cavities
+    counts = actuator.tally.cavities
     assert counts.opened >= 1
     assert counts.open == counts.opened - counts.collapsed == rows[-1, columns.cavities_open]
     assert counts.largest == rows[:, columns.cavity_volume].max() > 1e-7
@@ -380,14 +381,14 @@ def test_oil_that_boils_is_seen_in_row_state_and_counts():
         1e-4 * (101325.0 - 10.0) / (state.pressure['O'] - 10.0))
     assert max(state.void_fraction, key=state.void_fraction.get) == min(
         state.pressure, key=state.pressure.get)
-    assert actuator.vacuum_ticks == 0
+    assert actuator.tally.vacuum_ticks == 0
 
 
 def test_counts_of_cavities_start_anew_with_a_reset():
     actuator = boiling()
     first = sine(actuator, 30)
     actuator.reset()
-    assert actuator.cavities == Cavities(0, 0, 0, 0.0)
+    assert actuator.tally.cavities == Cavities(0, 0, 0, 0.0)
     assert np.array_equal(sine(actuator, 30), first)
 
 
@@ -406,8 +407,8 @@ def test_without_gas_ticks_below_vacuum_are_counted():
     actuator = make(tank__pressure=0.0, solver__cells=100)
     rows, columns = sine(actuator, 40), actuator.channels
     below = rows[:, columns.lowest_pressure] < 0.0
-    assert actuator.vacuum_ticks == below.sum() > 5
-    assert actuator.cavities == Cavities(0, 0, 0, 0.0)
+    assert actuator.tally.vacuum_ticks == below.sum() > 5
+    assert actuator.tally.cavities == Cavities(0, 0, 0, 0.0)
     assert set(actuator.state.void_fraction.values()) == {0.0}
     assert (rows[:, columns.lowest_pressure]
             <= rows[:, columns.pressure].min(axis=1) + REST_PRESSURE).all()

@@ -36,7 +36,7 @@ def solver(state: str, problem: str, active: bool, rig: Rig | None) -> Status:
 def _figures(rig: Rig) -> dict[str, str]:
     """Return counts and figures; times in s, masses in kg."""
     actuator, parameters = rig.actuator, rig.parameters
-    mass = actuator.mass_balance
+    tally = actuator.tally
     return {
         'mode': parameters['timing.mode'],
         'paused': str(rig.paused).lower(),
@@ -44,11 +44,11 @@ def _figures(rig: Rig) -> dict[str, str]:
         'resets': str(rig.plant.resets),
         'step_time': f'{actuator.step_time:.9g}',
         'steps_per_tick': str(actuator.steps_per_period),
-        'courant': f'{actuator.courant * (1.0 + actuator.largest_mach):.6f}',
-        'largest_mach': f'{actuator.largest_mach:.6f}',
+        'courant': f'{actuator.courant * (1.0 + tally.largest_mach):.6f}',
+        'largest_mach': f'{tally.largest_mach:.6f}',
         'max_mach': f'{parameters["solver.max_mach"]:g}',
-        'stop_hits': str(actuator.stop_hits),
-        'mass_residual': f'{mass.residual:.3e}',
-        'mass_passed': f'{mass.passed:.6g}',
+        'stop_hits': str(tally.stop_hits),
+        'mass_residual': f'{tally.mass.residual:.3e}',
+        'mass_passed': f'{tally.mass.passed:.6g}',
         'parameter_hash': parameter_hash(parameters),
     }

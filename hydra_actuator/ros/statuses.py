@@ -12,7 +12,6 @@ import gc
 import time
 from types import MappingProxyType
 
-from hydra_actuator.actuator import Cavities
 from hydra_actuator.faults.announcements import NAME, standing
 from hydra_actuator.realtime.pacer import Pacer
 from hydra_actuator.ros.commanders import Commanders
@@ -20,6 +19,7 @@ from hydra_actuator.ros.commands import CommandDesk
 from hydra_actuator.ros.recorder import Recorder
 from hydra_actuator.ros.scheduling import refusals
 from hydra_actuator.ros.setpoint import Setpoint
+from hydra_actuator.tally import Cavities
 
 OK, WARN, ERROR = 0, 1, 2
 RECENT = 2.0

@@ -44,11 +44,11 @@ class Vitals:
 
     def oil(self, parameters: Parameters) -> statuses.Status:
         """Return whether the oil boils, or would."""
-        actuator = self._actuator
-        cavities = actuator.cavities
+        tally = self._actuator.tally
+        cavities, vacuum_ticks = tally.cavities, tally.vacuum_ticks
         return statuses.oil(
-            cavities, actuator.vacuum_ticks, parameters['fluid.cavitation'],
-            (self._boiled.grew(cavities.opened), self._vacuum.grew(actuator.vacuum_ticks)))
+            cavities, vacuum_ticks, parameters['fluid.cavitation'],
+            (self._boiled.grew(cavities.opened), self._vacuum.grew(vacuum_ticks)))
 
     def statuses(self, parameters: Parameters) -> list[statuses.Status]:
         """Return what diagnostics say, but for the state of the solver."""
@@ -81,11 +81,11 @@ class Vitals:
             Watched('Real time', warn, 'ticks not published', lambda: self._ring.lost),
             Watched('Command', warn, 'messages dropped', lambda: self._desk.rejections),
             Watched('Command', warn, 'silence', lambda: self._setpoint.timeouts),
-            Watched('Solver', warn, 'end stop hit', lambda: actuator.stop_hits),
-            Watched('Solver', warn, 'cavity opened', lambda: actuator.cavities.opened),
+            Watched('Solver', warn, 'end stop hit', lambda: actuator.tally.stop_hits),
+            Watched('Solver', warn, 'cavity opened', lambda: actuator.tally.cavities.opened),
             Watched('Solver', statuses.OK, 'cavity collapsed',
-                    lambda: actuator.cavities.collapsed),
-            Watched('Solver', warn, statuses.VACUUM, lambda: actuator.vacuum_ticks),
+                    lambda: actuator.tally.cavities.collapsed),
+            Watched('Solver', warn, statuses.VACUUM, lambda: actuator.tally.vacuum_ticks),
             Watched('Recorder', statuses.ERROR, 'recording broke off',
                     lambda: self._recorder.failures),
             Watched('Recorder', statuses.OK, 'recording goes on in a new file',

@@ -82,7 +82,7 @@ def _simulated(actuator: Actuator, drive: Drive) -> dict[str, float]:
             actuator.read_field(field)
             highest = max(highest, float(np.fmax.reduce(field[:, 0])))
             rows.append(actuator.row.copy())
-    return {'peak_pressure': highest, 'stop_hits': actuator.stop_hits,
+    return {'peak_pressure': highest, 'stop_hits': actuator.tally.stop_hits,
             **_read_off(np.array(rows), actuator)}
 
 

@@ -36,7 +36,7 @@ def test_what_is_missing_is_little(gassy, gasless):
     for actuator, bar in ((gassy, 1e-6), (gasless, 1e-5)):
         actuator.reset()
         run(actuator, 4 * WEIGH_EVERY)
-        balance = actuator.mass_balance
+        balance = actuator.tally.mass
         assert balance.passed > 0.01
         assert 0.0 < abs(balance.residual) < bar * balance.passed
 
@@ -62,13 +62,13 @@ def test_oil_that_vanishes_is_missed(gasless):
         wave[line] -= less
     gasless.advance((WEIGH_EVERY - 1) * gasless.period)
     lost = 1e5 / model.wave_speed[0] ** 2 * model.area[0] * state.length[0]
-    assert gasless.mass_balance.residual == pytest.approx(lost, rel=0.05)
+    assert gasless.tally.mass.residual == pytest.approx(lost, rel=0.05)
 
 
 def test_the_balance_begins_anew_with_a_reset(gasless):
     run(gasless, WEIGH_EVERY)
     gasless.reset()
-    assert gasless.mass_balance.passed == gasless.mass_balance.residual == 0.0
+    assert gasless.tally.mass.passed == gasless.tally.mass.residual == 0.0
 
 
 def test_air_that_comes_into_the_oil_is_no_error():
@@ -76,5 +76,5 @@ def test_air_that_comes_into_the_oil_is_no_error():
     run(actuator, WEIGH_EVERY)
     actuator.set_faults({'fault.air_fraction': 0.01})
     run(actuator, 2 * WEIGH_EVERY)
-    balance = actuator.mass_balance
+    balance = actuator.tally.mass
     assert abs(balance.residual) < 1e-5 * balance.passed

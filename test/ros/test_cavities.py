@@ -6,9 +6,9 @@ import time
 
 from diagnostic_msgs.msg import DiagnosticArray
 from hydra_actuator import load_recording
-from hydra_actuator.actuator import Cavities
 from hydra_actuator.recording.messages import decode, FLOAT64_ARRAY
 from hydra_actuator.ros import statuses
+from hydra_actuator.tally import Cavities
 import numpy as np
 import pytest
 from std_msgs.msg import Float64, Float64MultiArray
