@@ -119,24 +119,29 @@ def slide(ends, piston, motion, load_force, guess):
     """
     Return the velocity [m/s] of the momentum balance with seal friction, 0 when the seals hold.
 
-    Newton's steps, kept inside a bracket that starts at rest and shrinks at each pass.
+    Newton's steps, kept inside a bracket that starts at rest and shrinks at each pass. G rises by
+    mass/dt and more with v: where that alone takes it past the seals' hold on the way from rest to
+    the guess, the piston slides that way and G(0) is not asked for.
     """
+    holds = max(piston.breakaway, piston.coulomb)
+    inertia = piston.mass / motion[4]
     direction = 0.0
     low, high = -math.inf, math.inf
     velocity = guess
-    if piston.coulomb > 0.0 or piston.breakaway > 0.0:
-        at_rest, slope, _ = momentum_defect(ends, piston, motion, load_force, 0.0)
-        if abs(at_rest) <= max(piston.breakaway, piston.coulomb):
-            return 0.0
-        direction = -math.copysign(1.0, at_rest)
-        if direction > 0.0:
-            low = 0.0
-        else:
-            high = 0.0
-        if velocity * direction <= 0.0:
-            velocity = -at_rest / slope
     for _ in range(MOST_PASSES):
         defect, slope, _ = momentum_defect(ends, piston, motion, load_force, velocity)
+        if holds > 0.0 and direction == 0.0:
+            slides = abs(velocity) * inertia > abs(defect) + holds
+            if not slides and velocity != 0.0:
+                velocity = 0.0
+                continue
+            if not slides and abs(defect) <= holds:
+                return 0.0
+            direction = math.copysign(1.0, velocity if slides else -defect)
+            low, high = (0.0, high) if direction > 0.0 else (low, 0.0)
+            if not slides:
+                velocity = -defect / slope if guess * direction <= 0.0 else guess
+                continue
         if direction != 0.0:
             friction, steepness = seal_friction(piston, abs(velocity))
             defect += direction * friction
