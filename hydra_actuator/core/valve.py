@@ -25,6 +25,7 @@ A, B, I, J = range(4)
 SOURCES = (A, A, B, I)
 SINKS = (B, I, J, J)
 MOST_RING_PASSES = 40
+RING_TOLERANCE = 1e-7  # of the edges' laws [Pa]
 # At zero flow an open edge has no slope, and a flow around the ring meets no resistance: this
 # part of the impedances keeps the matrix regular. It steers the steps, not where they end.
 FIRMNESS = 1e-9
@@ -139,6 +140,8 @@ def solve_ring(ring, coefficient, leakage):
             flow[k] = 0.0
     defect, slope = ring_residual(ring, flow, coefficient, leakage)
     size = defect_size(defect, coefficient, leakage)
+    if size < RING_TOLERANCE:
+        return
     for _ in range(MOST_RING_PASSES):
         change = newton_direction(ring[1], defect, slope, coefficient, leakage)
         damping = 1.0
@@ -151,7 +154,7 @@ def solve_ring(ring, coefficient, leakage):
             if trial <= size * (1.0 - 0.1 * damping) or trial < 1e-9:
                 break
             damping *= 0.5
-        settled = trial < 1e-7 or trial >= size
+        settled = trial < RING_TOLERANCE or trial >= size
         size = trial
         if settled:
             break
