@@ -6,6 +6,7 @@ Times say what a machine was doing; ratios of one run, piece by piece, stay with
 cent on a shared machine. One JSON object a line: commit, processor, ratios.
 """
 
+import copy
 from dataclasses import asdict, dataclass
 import json
 import math
@@ -14,10 +15,10 @@ import statistics
 import subprocess
 
 from hydra_actuator.actuator import Actuator
-from hydra_actuator.benchmark import drive, processor_time, repeat_sweep, swept, WARM_UP
+from hydra_actuator.benchmark import drive, processor_time, repeat_sweep, WARM_UP
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.parameters.options import EVERYTHING
-from hydra_actuator.stages import repeat_limit
+from hydra_actuator.stages import plain_arrays, repeat_limit
 import llvmlite.binding
 
 TOLERANCE = 1.3        # times the ratio on record
@@ -44,16 +45,17 @@ def measure() -> Record:
         drive(actuator, math.ceil(WARM_UP / actuator.period))
     plain = actuators['step, paper']
     count = TICKS * plain.steps_per_period
-    field, new, mesh = swept(plain)
+    bare = (plain._model, copy.deepcopy(plain._state), plain._passes)
+    loop = plain_arrays(plain._model, plain._state)
     works = {
-        'sweep': lambda: repeat_sweep(field, new, mesh, plain._passes, count),
+        'sweep': lambda: repeat_sweep(*bare, count),
         **{name: lambda actuator=actuator: drive(actuator, TICKS)
            for name, actuator in actuators.items()}}
-    repeat_limit(field, new, mesh, 1)
-    repeat_sweep(field, new, mesh, plain._passes, 1)
+    repeat_limit(*loop, 1)
+    repeat_sweep(*bare, 1)
     ratios = {name: [] for name in works}
     for _ in range(PIECES):
-        limit = processor_time(repeat_limit, field, new, mesh, count)
+        limit = processor_time(repeat_limit, *loop, count)
         for name, work in works.items():
             ratios[name].append(processor_time(work) / limit)
     return Record(_commit(), llvmlite.binding.get_host_cpu_name(),

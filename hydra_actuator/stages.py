@@ -140,7 +140,7 @@ def measure_stages(parameters: Parameters | None = None, pieces: int = 40) -> St
     model, state = actuator._model, actuator._state
     passes, inputs = actuator._passes, actuator._inputs
     bare = (model, copy.deepcopy(state), passes)
-    loop = _of_plain_arrays(model, state)
+    loop = plain_arrays(model, state)
     spent = {name: [] for name in NAMES}
     others = {'step': [], 'bare': [], 'limit': [], 'observe': [], 'call': []}
     repeat_limit(*loop, 1)
@@ -168,7 +168,7 @@ def measure_stages(parameters: Parameters | None = None, pieces: int = 40) -> St
     return Stages(times, *(float(np.median(others[key])) for key in ('step', 'bare', 'limit')))
 
 
-def _of_plain_arrays(model, state) -> tuple[tuple, tuple, tuple]:
+def plain_arrays(model, state) -> tuple[tuple, tuple, tuple]:
     """Return (waves, new waves, mesh) for the bare loop, copies but for the mesh."""
     waves = (state.wave_p.copy(), state.wave_q.copy())
     return (waves, (waves[0].copy(), waves[1].copy()),
