@@ -137,12 +137,17 @@ def _shape(axes, shape: dict) -> None:
 
 def _axis(axes, which: str, layout: dict) -> None:
     """Give an axis its title, type, ticks and range."""
+    from matplotlib.ticker import FixedLocator, NullLocator
+
     getattr(axes, f'set_{which}label')(layout.get('title', {}).get('text', ''))
     logarithmic = layout.get('type') == 'log'
     if logarithmic:
         getattr(axes, f'set_{which}scale')('log')
         if 'tickvals' in layout:
-            getattr(axes, f'{which}axis').set_major_formatter('{x:g}')
+            axis = getattr(axes, f'{which}axis')
+            axis.set_major_locator(FixedLocator(layout['tickvals']))
+            axis.set_major_formatter('{x:g}')
+            axis.set_minor_locator(NullLocator())
     elif 'tickvals' in layout:
         getattr(axes, f'set_{which}ticks')(
             layout['tickvals'], [text.replace('<br>', '\n') for text in layout['ticktext']])

@@ -103,6 +103,10 @@
   // Axes whose range is that of the part of the run shown first; it does not hold for another.
   const fitted = new Map();
 
+  function fit(plot, figure) {
+    fitted.set(plot, Object.keys(figure.layout).filter((key) => key.startsWith('yaxis') && figure.layout[key].range));
+  }
+
   function unfit(plot) {
     const axes = fitted.get(plot) || [];
     fitted.set(plot, []);
@@ -140,7 +144,7 @@
     }
     if (figure.linked) {
       linked.push(plot);
-      fitted.set(plot, Object.keys(figure.layout).filter((key) => key.startsWith('yaxis') && figure.layout[key].range));
+      fit(plot, figure);
       plot.on('plotly_relayout', (change) => follow(plot, change));
     }
   }
@@ -156,7 +160,7 @@
       for (const key of Object.keys(layout).filter((one) => one.startsWith('yaxis'))) {
         if (!fitted.get(plot).includes(key)) delete layout[key].range;
       }
-    }
+    } else if (figure.linked) fit(plot, figure);
     const traces = resolve(figure.traces);
     traces.forEach((trace, k) => { if (plot.data[k].visible !== undefined) trace.visible = plot.data[k].visible; });
     if (layout.updatemenus && !figure.frames.length) layout.updatemenus[0].active = before.updatemenus[0].active;
