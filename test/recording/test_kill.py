@@ -39,20 +39,20 @@ for line in sys.stdin:
 
 
 def killed(directory, after):
-    """Kill a sender so long after its beginning [s]; return the time of its last message [ns]."""
+    """Kill a sender so long after it begins [s]; return times of first and last message [ns]."""
     with subprocess.Popen([sys.executable, '-c', SENDER], stdin=subprocess.PIPE, text=True,
                           stdout=subprocess.PIPE) as process:
         process.stdin.write(f'{directory} {FLUSH_PERIOD}\n')
         process.stdin.flush()
         assert process.stdout.readline() == 'begun\n'
         end = time.monotonic() + after
-        last = 0
+        first = last = int(process.stdout.readline())
         while time.monotonic() < end:
             last = int(process.stdout.readline())
         process.send_signal(signal.SIGKILL)
         rest, _ = process.communicate()
     lines = rest.split('\n')
-    return int(lines[-2]) if len(lines) > 1 else last
+    return first, int(lines[-2]) if len(lines) > 1 else last
 
 
 def losses(directory, kills, chance):
@@ -60,14 +60,15 @@ def losses(directory, kills, chance):
     found = []
     for number in range(kills):
         path = directory / f'run_{number}'
-        last = killed(path, chance.uniform(0.1, 0.5))
+        first, last = killed(path, chance.uniform(0.1, 0.5))
         recovery = recover(path, directory / f'again_{number}')
         recording = load_recording(directory / f'again_{number}')
-        values = recording.series('/a').numbers()[:, 0].tolist()
+        values = recording.series('/a').numbers().ravel().tolist()
         # Nothing is missing in between, and nothing is there twice.
         assert values == list(range(len(values)))
         assert recording.finished
-        found.append((last - (recovery.end_ns or 0)) / 1e9)
+        # Killed within the first flush period, it may hold nothing yet.
+        found.append((last - (recovery.end_ns or first)) / 1e9)
     return found
 
 
