@@ -3,7 +3,7 @@
 
 from hydra_actuator.growth.report import draw, Growth, lines
 from hydra_actuator.growth.solver import over_actuators, over_cells, over_threads, over_time
-from hydra_actuator.growth.workers import Scaling
+from hydra_actuator.growth.workers import Scaling, task_time
 from hydra_actuator.parameters import Parameters
 import numpy as np
 import pytest
@@ -43,6 +43,10 @@ def test_a_scheduler_feeds_what_its_own_time_allows(growth):
     assert growth.workers.on_paper(10) == pytest.approx((100.0, 0.9))
     # A thousand get chunks of ten seconds: 100 runs, each then 0.65 ms.
     assert growth.workers.on_paper(1000) == pytest.approx((1.0 / 0.65e-3, 0.138), rel=5e-3)
+
+
+def test_tasks_that_do_nothing_cost_the_asking_process_time():
+    assert task_time(20) > 0.0
 
 
 def test_curves_are_told_and_drawn(growth, tmp_path):
