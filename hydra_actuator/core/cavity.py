@@ -40,6 +40,22 @@ FARTHEST_INSIDE = -0.4
 
 
 @formula
+def quadratic(about, waves, strength, floor, oil):
+    """
+    Return (steepness, linear term, root) of the balance with the oil's pressure linear about a mu.
+
+    For one node or for lanes; arguments as those of `gas_balance`.
+    """
+    free, held = waves
+    slowness, bulk_modulus = oil
+    compression = compression_series(about * slowness)
+    steepness = bulk_modulus * slowness * (1.0 + compression)
+    linear = bulk_modulus * compression + floor - steepness * (about - free + held)
+    root = abs(linear) + math.sqrt(linear * linear + 4.0 * steepness * strength)
+    return steepness, linear, root
+
+
+@formula
 def gas_balance(waves, strength, floor, oil, rounds):
     """
     Return (mu [m/s], p* [Pa]) where oil and gas of a node agree.
@@ -58,10 +74,7 @@ def gas_balance(waves, strength, floor, oil, rounds):
     deepest, stiffest = -floor / (bulk_modulus * slowness), STIFFEST / slowness
     for _ in range(rounds):
         about = min(max(mu, deepest), stiffest)
-        compression = compression_series(about * slowness)
-        steepness = bulk_modulus * slowness * (1.0 + compression)
-        linear = bulk_modulus * compression + floor - steepness * (about - free + held)
-        root = abs(linear) + math.sqrt(linear * linear + 4.0 * steepness * strength)
+        steepness, linear, root = quadratic(about, waves, strength, floor, oil)
         above = linear >= 0.0
         volume = ((2.0 * strength if above else root)
                   / (root + 1e-300 if above else 2.0 * steepness))
@@ -81,10 +94,7 @@ def balance_in_lanes(waves, strength, floor, oil):
     deepest, stiffest = -floor / (bulk_modulus * slowness), STIFFEST / slowness
     for _ in range(ROUNDS_INSIDE):
         about = at_most(at_least(mu, deepest), stiffest)
-        compression = compression_series(about * slowness)
-        steepness = bulk_modulus * slowness * (1.0 + compression)
-        linear = bulk_modulus * compression + floor - steepness * (about - free + held)
-        root = abs(linear) + math.sqrt(linear * linear + 4.0 * steepness * strength)
+        steepness, linear, root = quadratic(about, waves, strength, floor, oil)
         volume = (where_positive(linear, 2.0 * strength, root)
                   / where_positive(linear, root + 1e-300, 2.0 * steepness))
         mu = free + (volume - held)

@@ -3,7 +3,14 @@
 
 import math
 
-from hydra_actuator.core.cavity import gas_balance, ROUNDS_AT_END
+from hydra_actuator.core.cavity import (
+    fill_cavities,
+    gas_balance,
+    ROUNDS_AT_END,
+    ROUNDS_INSIDE,
+)
+from hydra_actuator.core.compilation import kernel
+from hydra_actuator.core.lanes import WIDTH
 from hydra_actuator.core.model import Domain, Junction, Mesh
 from hydra_actuator.core.oil import Oil
 from hydra_actuator.core.records import CLOSED, PRESSURE
@@ -39,9 +46,36 @@ def test_a_balance_that_stops_early_is_the_one_of_all_rounds(pressure, air_fract
     assert early == pytest.approx(full, rel=1e-12)
 
 
+def test_nodes_side_by_side_balance_as_each_alone():
+    chain, chance = line(1e-3, 1e6, 23, 0.975), np.random.default_rng(7)
+    model, state = chain.model, chain.state
+    inside = slice(model.start[0] + 1, model.start[0] + state.last[0])
+    count = inside.stop - inside.start
+    state.new_p[inside], state.new_q[inside] = chance.uniform(-60.0, 20.0, (2, count))
+    state.star[inside] = 10.0 ** chance.uniform(1.0, 7.0, count)
+    before = [state.new_p[inside].tolist(), state.new_q[inside].tolist(),
+              state.star[inside].tolist(), state.strength[inside].tolist()]
+    assert all(before[3]) and count % WIDTH
+    fill(model, state)
+    oil = float(model.slowness[0]), float(model.bulk_modulus[0])
+    for k, (p, q, star, strength) in enumerate(zip(*before)):
+        mu, star = gas_balance((0.5 * (p + q), strength / star), strength, model.floor, oil,
+                               ROUNDS_INSIDE)
+        node = inside.start + k
+        assert state.star[node] == pytest.approx(star, rel=1e-9)
+        assert state.new_p[node] == pytest.approx(2.0 * mu - q, rel=1e-9, abs=1e-9)
+        assert state.new_q[node] == pytest.approx(2.0 * mu - p, rel=1e-9, abs=1e-9)
+
+
 def test_without_gas_the_oil_keeps_its_wave():
     mu, _ = gas_balance((7.0, 0.0), 0.0, FLOOR, OIL, ROUNDS_AT_END)
     assert mu == pytest.approx(7.0, rel=1e-12)
+
+
+@kernel
+def fill(model, state):
+    """Call what only compiled code can."""
+    fill_cavities(model, state)
 
 
 def line(air_fraction: float, pressure: float, cells: int, courant: float) -> LoneChain:
