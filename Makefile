@@ -13,11 +13,11 @@ unexport PYTHONPATH PYTHONHOME AMENT_PREFIX_PATH LD_LIBRARY_PATH _ROS_WHEELS_BOO
 demo: venv
 	$(BIN)/hydra_actuator demo
 
-# Two at a time; what speaks ROS by files, so that tests which share a node stay together.
+# Two at a time what waits for nobody; one after the other what keeps time.
 test: venv
 	$(BIN)/ruff check .
 	$(BIN)/python -m pytest -q -n 2 --dist worksteal --ignore test/ros test
-	$(BIN)/python -m pytest -q -n 2 --dist loadfile test/ros examples
+	$(BIN)/python -m pytest -q test/ros examples
 
 # The long tests: minutes each, on a machine that does nothing else.
 soak: venv

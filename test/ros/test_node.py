@@ -4,7 +4,7 @@
 import math
 import time
 
-from diagnostic_msgs.msg import DiagnosticArray
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from hydra_actuator import Actuator, load_parameters, load_recording
 from hydra_actuator.recording.messages import decode, FLOAT64
 from hydra_actuator.replay import Replay
@@ -24,12 +24,12 @@ PERIOD_NS = 1_000_000
 
 
 def latest(heard, name):
-    """Return the newest status of that name and its values."""
+    """Return the newest status of that name and its values, an empty one before the first."""
     for message in reversed(heard):
         for status in message.status:
             if status.name == f'/actuator: {name}':
                 return status, {one.key: one.value for one in status.values}
-    return None, {}
+    return DiagnosticStatus(), {}
 
 
 def last_values(recording, name):
