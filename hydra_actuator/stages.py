@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import math
 
 from hydra_actuator.actuator import Actuator
-from hydra_actuator.benchmark import drive, processor_time, repeat_sweep, WARM_UP
+from hydra_actuator.benchmark import drive, PIECE, processor_time, repeat_sweep, WARM_UP
 from hydra_actuator.core.advance import LOOK_EVERY
 from hydra_actuator.core.boiling import note_lowest
 from hydra_actuator.core.cavity import fill_cavities, read_beside_faces
@@ -31,7 +31,7 @@ from hydra_actuator.core.step import (
 from hydra_actuator.parameters import Parameters
 import numpy as np
 
-REPEATS = 500          # of a stage in one timed piece
+REPEATS, CALLS = 500, 100     # of a stage, and of a call from Python, in one timed piece
 JUNCTIONS = ('pump', 'valve', 'port C|D', 'piston', 'port G|H', 'tank')
 (SPOOLS, GHOSTS, SWEEP, EXTRAPOLATION, ARRIVAL, LEVEL, CAVITIES, MEMORY, LOWEST, ALARM,
  LIMITS, NOTHING) = range(12)
@@ -147,6 +147,7 @@ def measure_stages(parameters: Parameters | None = None, pieces: int = 40) -> St
     repeat_sweep(*bare, 1)
     for k in range(len(NAMES)):
         repeat_stage(model, copy.deepcopy(state), inputs, passes, k, 1)
+    steps = actuator.steps_per_period
     for _ in range(pieces):
         for k, name in enumerate(NAMES):
             trial = copy.deepcopy(state)
@@ -154,10 +155,11 @@ def measure_stages(parameters: Parameters | None = None, pieces: int = 40) -> St
                 REPEATS, repeat_stage, model, trial, inputs, passes, k, REPEATS))
         others['bare'].append(_clock(REPEATS, repeat_sweep, *bare, REPEATS))
         others['limit'].append(_clock(REPEATS, repeat_limit, *loop, REPEATS))
-        steps = actuator.steps_per_period
-        others['observe'].append(_clock(steps, actuator._observe))
-        others['call'].append(_clock(steps, actuator._advance, actuator._schedule, 0))
-        others['step'].append(_clock(steps, drive, actuator, 1))
+        others['observe'].append(_clock(CALLS * steps, _call, actuator._observe))
+        others['call'].append(_clock(
+            CALLS * steps, _call, actuator._advance, actuator._schedule, 0))
+        drive(actuator, 1)
+        others['step'].append(_clock(PIECE * steps, drive, actuator, PIECE))
     times = {name: float(np.median(column)) for name, column in spent.items()}
     call = times.pop('nothing')
     times = {name: max(took - call, 0.0) for name, took in times.items()}
@@ -173,6 +175,12 @@ def plain_arrays(model, state) -> tuple[tuple, tuple, tuple]:
     waves = (state.wave_p.copy(), state.wave_q.copy())
     return (waves, (waves[0].copy(), waves[1].copy()),
             (model.courant, model.slope, model.friction))
+
+
+def _call(function, *arguments) -> None:
+    """Call CALLS times: once alone would be the cost of the clock and of what is not at hand."""
+    for _ in range(CALLS):
+        function(*arguments)
 
 
 def _clock(parts: int, function, *arguments) -> float:

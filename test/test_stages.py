@@ -20,9 +20,20 @@ import pytest
 pytestmark = pytest.mark.once
 
 
+# Between one measurement and another of the same on a busy machine.
+NOISE = 2.5
+
+
 @pytest.fixture(scope='module')
 def stages():
     return measure_stages(Parameters().replace({'solver.cells': 100}), 5)
+
+
+@pytest.fixture(scope='module')
+def actuator():
+    actuator = Actuator(Parameters().replace({'solver.cells': 100}))
+    drive(actuator, 10)
+    return actuator
 
 
 def test_a_plain_model_spends_nothing_on_gas_and_memory(stages):
@@ -39,10 +50,27 @@ def test_a_step_takes_longer_than_the_sweep_it_contains_and_than_the_bare_loop(s
     assert stages.step > stages.limit > 0.0
 
 
-def test_no_stage_is_left_out_by_the_compiler():
-    actuator = Actuator(Parameters().replace({'solver.cells': 100}))
-    drive(actuator, 10)
+def test_calls_from_python_and_steps_take_what_they_take_in_a_long_run(stages, actuator):
+    def observe(count):
+        for _ in range(count):
+            actuator._observe()
 
+    def call(count):
+        for _ in range(count):
+            actuator._advance(actuator._schedule, 0)
+
+    def took(work, count):
+        parts = count * actuator.steps_per_period
+        return min(processor_time(work, count) / parts for _ in range(7))
+
+    for seen, alone in (
+            (stages.times['observation'], took(observe, 1000)),
+            (stages.times['calls from Python'], took(call, 1000)),
+            (stages.step, took(lambda count: drive(actuator, count), 30))):
+        assert 1.0 / NOISE < seen / alone < NOISE
+
+
+def test_no_stage_is_left_out_by_the_compiler(actuator):
     def took(stage, count):
         state = copy.deepcopy(actuator._state)
         return processor_time(repeat_stage, actuator._model, state, actuator._inputs,
