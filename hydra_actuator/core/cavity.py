@@ -42,17 +42,19 @@ FARTHEST_INSIDE = -0.4
 @formula
 def quadratic(about, waves, strength, floor, oil):
     """
-    Return (steepness, linear term, root) of the balance with the oil's pressure linear about a mu.
+    Return (twice the steepness, linear term, root) of the balance, linear about a mu.
 
-    For one node or for lanes; arguments as those of `gas_balance`.
+    For one node or for lanes; arguments as those of `gas_balance`. The oil's pressure is what is
+    linear.
     """
     free, held = waves
     slowness, bulk_modulus = oil
     compression = compression_series(about * slowness)
     steepness = bulk_modulus * slowness * (1.0 + compression)
     linear = bulk_modulus * compression + floor - steepness * (about - free + held)
-    root = abs(linear) + math.sqrt(linear * linear + 4.0 * steepness * strength)
-    return steepness, linear, root
+    twice = 2.0 * steepness
+    root = abs(linear) + math.sqrt(linear * linear + twice * (2.0 * strength))
+    return twice, linear, root
 
 
 @formula
@@ -74,10 +76,9 @@ def gas_balance(waves, strength, floor, oil, rounds):
     deepest, stiffest = -floor / (bulk_modulus * slowness), STIFFEST / slowness
     for _ in range(rounds):
         about = min(max(mu, deepest), stiffest)
-        steepness, linear, root = quadratic(about, waves, strength, floor, oil)
+        steep, linear, root = quadratic(about, waves, strength, floor, oil)
         above = linear >= 0.0
-        volume = ((2.0 * strength if above else root)
-                  / (root + 1e-300 if above else 2.0 * steepness))
+        volume = (2.0 * strength if above else root) / (root + 1e-300 if above else steep)
         mu = free + (volume - held)
         # the few ends may stop at once; nodes go on together
         if rounds == ROUNDS_AT_END and abs(mu - about) * slowness <= STRAIGHT:
@@ -87,18 +88,18 @@ def gas_balance(waves, strength, floor, oil, rounds):
 
 @formula
 def balance_in_lanes(waves, strength, floor, oil):
-    """Return what `gas_balance` does in ROUNDS_INSIDE rounds, of WIDTH nodes."""
+    """Return what `gas_balance` does in ROUNDS_INSIDE rounds, of WIDTH nodes with gas."""
     free, held = waves
     slowness, bulk_modulus = oil
     mu, volume = free, held
     deepest, stiffest = -floor / (bulk_modulus * slowness), STIFFEST / slowness
     for _ in range(ROUNDS_INSIDE):
         about = at_most(at_least(mu, deepest), stiffest)
-        steepness, linear, root = quadratic(about, waves, strength, floor, oil)
+        steep, linear, root = quadratic(about, waves, strength, floor, oil)
         volume = (where_positive(linear, 2.0 * strength, root)
-                  / where_positive(linear, root + 1e-300, 2.0 * steepness))
+                  / where_positive(linear, root, steep))
         mu = free + (volume - held)
-    return mu, strength / (volume + 1e-300)
+    return mu, strength / volume
 
 
 @formula
@@ -117,16 +118,25 @@ def fill_cavities(model, state):
 
 @formula
 def fill_nodes(state, nodes, floor, oil):
-    """Let the gas of nodes (first, end) answer in place, WIDTH at a time, where there is any."""
+    """
+    Let the gas of nodes (first, end), all with gas, answer in place, WIDTH at a time.
+
+    What lies beyond is put back at the end: a choice at every store would be one of the slowest
+    instructions of some processors.
+    """
     first, end = nodes
+    new_p, new_q, star = state.new_p, state.new_q, state.star
+    p_beyond, q_beyond, star_beyond = load(new_p, end), load(new_q, end), load(star, end)
     for i in range(first, end, WIDTH):
-        p, q = load(state.new_p, i), load(state.new_q, i)
-        star, strength = load(state.star, i), load(state.strength, i)
+        p, q, strength = load(new_p, i), load(new_q, i), load(state.strength, i)
         mu, pressure = balance_in_lanes(
-            (0.5 * (p + q), strength / star), strength, floor, oil)
-        store(state.new_p, i, where_positive(strength, 2.0 * mu - q, p))
-        store(state.new_q, i, where_positive(strength, 2.0 * mu - p, q))
-        store(state.star, i, where_positive(strength, pressure, star))
+            (0.5 * (p + q), strength / load(star, i)), strength, floor, oil)
+        store(new_p, i, 2.0 * mu - q)
+        store(new_q, i, 2.0 * mu - p)
+        store(star, i, pressure)
+    store(new_p, end, p_beyond)
+    store(new_q, end, q_beyond)
+    store(star, end, star_beyond)
 
 
 @formula

@@ -67,6 +67,22 @@ def test_nodes_side_by_side_balance_as_each_alone():
         assert state.new_q[node] == pytest.approx(2.0 * mu - p, rel=1e-9, abs=1e-9)
 
 
+@pytest.mark.parametrize('cells', range(2, 2 * WIDTH + 2))
+def test_what_lies_beyond_the_nodes_with_gas_is_left_alone(cells):
+    chain, chance = line(1e-3, 1e6, cells, 0.975), np.random.default_rng(cells)
+    model, state = chain.model, chain.state
+    assert state.last[0] == cells
+    arrays = state.new_p, state.new_q, state.star
+    for array in arrays:
+        array[:] = chance.uniform(1e5, 1e6, array.size)
+    before = [array.copy() for array in arrays]
+    fill(model, state)
+    inside = np.zeros(state.star.size, bool)
+    inside[model.start[0] + 1:model.start[0] + cells] = True
+    for now, then in zip(arrays, before):
+        assert np.array_equal(now != then, inside)
+
+
 def test_without_gas_the_oil_keeps_its_wave():
     mu, _ = gas_balance((7.0, 0.0), 0.0, FLOOR, OIL, ROUNDS_AT_END)
     assert mu == pytest.approx(7.0, rel=1e-12)
