@@ -96,16 +96,18 @@ def solve_piston_junction(model, state, junction, inputs):
     ends = (end_of(model, state, face_1), end_of(model, state, face_2))
     theta = implicitness(ends, piston, model.step_time)
     load_force = inputs[junction.input]
-    old = (motion.position, motion.velocity, motion.force, theta, model.step_time)
+    slip = (motion.slip_1, motion.slip_2)
+    old = (motion.position, motion.velocity, motion.force, theta, model.step_time, slip)
     position, velocity, hit = move_piston(
-        ends, piston, old, load_force, state.end_velocity[face_1])
-    p_1, p_2, _, _, u_1, u_2 = face_pressures(ends, piston, velocity)
+        ends, piston, old, load_force, state.end_velocity[face_1] - motion.slip_1)
+    p_1, p_2, _, _, u_1, u_2 = face_pressures(ends, piston, velocity, slip)
     motion.new_position = position
     motion.new_velocity = velocity
     motion.new_force = (
         model.area[d_1] * p_1 - model.area[d_2] * p_2 - piston.stiffness * position
         - piston.viscous * velocity - load_force)
     motion.hit = hit
+    motion.slip_1, motion.slip_2 = u_1 - velocity, u_2 - velocity
     state.end_velocity[face_1] = u_1
     state.end_velocity[face_2] = -u_2
     state.length[d_1] = piston.length_1 + position

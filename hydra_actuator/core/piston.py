@@ -22,39 +22,41 @@ from hydra_actuator.core.end import end_relation
 from hydra_actuator.core.orifice import settled
 
 MOST_PASSES = 60
-# Passes of a leaking piston that Newton is trusted alone; four are the rule.
+# Passes of a leaking piston that Newton is trusted alone; two are the rule, from rest three.
 PATIENCE = 12
 # Last change of the leaking flow, relative and, at balanced pressures, in m^3/s.
 LEAKAGE_TOLERANCE, NO_LEAKAGE = 1e-11, 1e-20
 
 
 @formula
-def face_pressures(ends, piston, velocity):
+def face_pressures(ends, piston, velocity, slip):
     """
     Return (p_E, p_F, stiffness_E, stiffness_F, u_E, u_F) at a piston velocity [m/s].
 
-    ends: the faces of both chambers; stiffness = -dp/dv [Pa s/m]; u: the oil's velocity at each
-    face [m/s], v itself unless the piston leaks.
+    ends: the faces of both chambers; slip: the last known (u_E - v, u_F - v) [m/s], where a
+    leaking piston begins; stiffness = -dp/dv [Pa s/m]; u: the oil's velocity at each face [m/s],
+    v itself unless the piston leaks.
     """
     end_1, end_2 = ends
     if piston.leakage > 0.0:
-        return leaking_faces(ends, piston, velocity)
+        return leaking_faces(ends, piston, velocity, slip)
     p_1, _, z_1, flatness_1 = end_relation(end_1, velocity)
     p_2, _, z_2, flatness_2 = end_relation(end_2, -velocity)
     return p_1, p_2, z_1 / flatness_1, z_2 / flatness_2, velocity, velocity
 
 
 @formula
-def leaking_faces(ends, piston, velocity):
+def leaking_faces(ends, piston, velocity, slip):
     """Return what `face_pressures` does, of a piston that leaks."""
     end_1, end_2 = ends
-    flow, v_1, v_2 = 0.0, velocity, -velocity
-    p_1, p_2, stiffness_1, stiffness_2 = 0.0, 0.0, 0.0, 0.0
+    flow, v_1, v_2 = 0.0, velocity + slip[0], -velocity - slip[1]
+    p_1, p_2, z_1, z_2, flatness_1, flatness_2 = 0.0, 0.0, 0.0, 0.0, 1.0, 1.0
     low, high = -math.inf, math.inf
     for k in range(MOST_PASSES):
         p_1, _, z_1, flatness_1 = end_relation(end_1, v_1)
         p_2, _, z_2, flatness_2 = end_relation(end_2, v_2)
-        stiffness_1, stiffness_2 = z_1 / flatness_1, z_2 / flatness_2
+        if k == 0:
+            flow = slip[0] * end_1.area * (1.0 + p_1 / end_1.bulk_modulus)
         defect = piston.leakage * (p_1 - p_2) - flow
         change = defect / (1.0 + piston.leakage * (z_1 + z_2))
         if k >= PATIENCE:
@@ -71,7 +73,7 @@ def leaking_faces(ends, piston, velocity):
         v_2 = -velocity - flow * end_2.inverse_area / (1.0 + p_2 / end_2.bulk_modulus)
         if abs(change) <= LEAKAGE_TOLERANCE * abs(flow) + NO_LEAKAGE:
             break
-    return p_1, p_2, stiffness_1, stiffness_2, v_1, -v_2
+    return p_1, p_2, z_1 / flatness_1, z_2 / flatness_2, v_1, -v_2
 
 
 @formula
@@ -98,10 +100,10 @@ def momentum_defect(ends, piston, motion, load_force, velocity):
     """
     Return (G [N], dG/dv [N s/m], R [N]) at a trial velocity [m/s].
 
-    motion: (position, velocity, R) of the old level, theta, step time.
+    motion: (position, velocity, R) of the old level, theta, step time, slip (see face_pressures).
     """
-    x_old, v_old, force_old, theta, step_time = motion
-    p_1, p_2, stiffness_1, stiffness_2, _, _ = face_pressures(ends, piston, velocity)
+    x_old, v_old, force_old, theta, step_time, slip = motion
+    p_1, p_2, stiffness_1, stiffness_2, _, _ = face_pressures(ends, piston, velocity, slip)
     area_1, area_2 = ends[0].area, ends[1].area
     x = x_old + step_time * (theta * velocity + (1.0 - theta) * v_old)
     force = (area_1 * p_1 - area_2 * p_2 - piston.stiffness * x
@@ -167,7 +169,7 @@ def slide(ends, piston, motion, load_force, guess):
 @formula
 def move_piston(ends, piston, motion, load_force, guess):
     """Return (position [m], velocity [m/s], hit) after one step, end stops included."""
-    x_old, v_old, _, theta, step_time = motion
+    x_old, v_old, _, theta, step_time, _ = motion
     velocity = slide(ends, piston, motion, load_force, guess)
     position = x_old + step_time * (theta * velocity + (1.0 - theta) * v_old)
     if not abs(position) > piston.limit:

@@ -42,9 +42,11 @@ SOURCE_PARAMETERS = np.dtype([
     ('accumulator_volume', np.float64), ('precharge', np.float64), ('ambient', np.float64)],
     align=True)
 
+# `slip_1`, `slip_2` [m/s]: by how much the oil at the faces last was faster than the piston.
 PISTON_STATE = np.dtype([
     ('position', np.float64), ('velocity', np.float64), ('force', np.float64),
     ('new_position', np.float64), ('new_velocity', np.float64), ('new_force', np.float64),
+    ('slip_1', np.float64), ('slip_2', np.float64),
     ('hit', np.int64), ('stop_hits', np.int64)], align=True)
 
 # Cavities open at the last whole period, opened and collapsed so far, largest volume [m^3].
