@@ -52,7 +52,8 @@ def solve_junction(model, state, j, inputs):
     if kind == CLOSED:
         velocity[end] = 0.0
     elif kind == PRESSURE:
-        velocity[end] = solve_pressure_end(end_of(model, state, end), inputs[junction.input])
+        velocity[end] = solve_pressure_end(
+            end_of(model, state, end), inputs[junction.input], state.end_held[end])
     elif kind == FLOW:
         velocity[end] = solve_flow_end(end_of(model, state, end), inputs[junction.input])
     elif kind == PUMP:

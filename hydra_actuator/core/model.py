@@ -207,6 +207,7 @@ def _empty_state(domains: int, nodes: int) -> State:
         old_length=np.zeros(domains), old_velocity=np.zeros(domains),
         end_wave=np.zeros(2 * domains), end_velocity=np.zeros(2 * domains),
         end_velocity_before=np.zeros(2 * domains), end_theta=np.zeros(2 * domains),
+        end_held=np.full((2 * domains, 2), np.nan),
         face_p=np.zeros(domains), face_q=np.zeros((domains, 3)),
         drag=np.zeros(nodes), memory=np.zeros((TERMS, nodes)), fading=np.zeros(nodes),
         damping=np.zeros(nodes), star=np.ones(nodes),

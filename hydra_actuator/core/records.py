@@ -127,6 +127,7 @@ class State(Handle):
     end_velocity: np.ndarray    # (2 D,) outflow velocity [m/s]
     end_velocity_before: np.ndarray  # (2 D,) the same one step ago
     end_theta: np.ndarray       # (2 D,) foot of the arriving wave [cells]
+    end_held: np.ndarray        # (2 D, 2) pressure [Pa] an end is held at, its mu [m/s]
     face_p: np.ndarray          # (D,) P at a moving face
     face_q: np.ndarray          # (D, 3) Q at a moving face now, one and two steps ago
     drag: np.ndarray            # (N,) J of the wall's friction [m/s^2]

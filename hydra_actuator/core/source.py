@@ -20,10 +20,17 @@ MOST_BRACKETED_PASSES = 60
 
 
 @formula
-def solve_pressure_end(end, pressure):
-    """Return the outflow velocity [m/s] of an end held at a gauge pressure [Pa]."""
-    mu = riemann_variable(pressure, 1.0 / end.slowness, end.bulk_modulus)
-    return velocity_at(end, mu, pressure)
+def solve_pressure_end(end, pressure, held):
+    """
+    Return the outflow velocity [m/s] of an end held at a gauge pressure [Pa].
+
+    held: the last such pressure and its mu [m/s], (2,), renewed in place: it seldom changes, and
+    the logarithm is most of the work.
+    """
+    if pressure != held[0]:
+        held[0] = pressure
+        held[1] = riemann_variable(pressure, 1.0 / end.slowness, end.bulk_modulus)
+    return velocity_at(end, held[1], pressure)
 
 
 @formula

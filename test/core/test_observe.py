@@ -10,6 +10,7 @@ from hydra_actuator.core.observe import (
     NOT_A_NUMBER,
     observe,
     read_field,
+    runs_away,
     SECTION,
     SOUND,
     TOO_FAST,
@@ -163,6 +164,16 @@ def test_a_nan_anywhere_is_found_in_its_domain(cylinder, d, place):
     assert code == NOT_A_NUMBER
     assert state.fault[1] == d
     assert math.isnan(mach)
+
+
+@pytest.mark.parametrize('velocity', [1.001, -1.001, math.nan, math.inf])
+def test_oil_that_runs_away_is_found_at_every_end(cylinder, velocity):
+    model, state = cylinder.model, cylinder.state
+    for end in range(4):
+        state.end_velocity[:] = 0.999 * MACH * SPEED
+        assert not runs_away(model, state)
+        state.end_velocity[end] = velocity * MACH * SPEED
+        assert runs_away(model, state)
 
 
 @pytest.mark.parametrize('d', [0, 1])

@@ -34,6 +34,11 @@ def end(pressure: float, velocity: float = 0.0, guess: float = 0.0) -> End:
     return End(wave, guess, 1.0 / SPEED, MODULUS, AREA, DENSITY * SPEED / AREA, 1.0 / AREA)
 
 
+def unknown() -> np.ndarray:
+    """Return what an end knows that has not been held at any pressure yet."""
+    return np.full(2, np.nan)
+
+
 def at(this: End, velocity: float) -> tuple[float, float]:
     """Return pressure [Pa] and outflow at reference density [m^3/s], by the exact relation."""
     compression = math.expm1((this.wave - velocity) / SPEED)
@@ -52,8 +57,23 @@ def source(max_flow: float = MOST_FLOW, volume: float = 0.0) -> np.record:
 @given(pressures, pressures, velocities)
 def test_pressure_end_holds_its_pressure(pressure, arriving, velocity):
     this = end(arriving, velocity)
-    assert at(this, solve_pressure_end(this, pressure))[0] == pytest.approx(
+    assert at(this, solve_pressure_end(this, pressure, unknown()))[0] == pytest.approx(
         pressure, rel=LAW, abs=1e-5)
+
+
+@given(st.lists(st.tuples(st.sampled_from([0.0, 1e5, 2.5e6]), pressures, velocities)))
+def test_what_a_pressure_end_was_held_at_before_changes_nothing(steps):
+    held = unknown()
+    for pressure, arriving, velocity in steps:
+        this = end(arriving, velocity)
+        assert solve_pressure_end(this, pressure, held) == solve_pressure_end(
+            this, pressure, unknown())
+
+
+def test_a_pressure_that_is_no_number_leaves_none_and_is_forgotten():
+    this, held = end(1e6), unknown()
+    assert math.isnan(solve_pressure_end(this, math.nan, held))
+    assert solve_pressure_end(this, 2e6, held) == solve_pressure_end(this, 2e6, unknown())
 
 
 @given(st.floats(-2e-3, 2e-3), pressures, velocities, velocities)
