@@ -39,8 +39,11 @@ def test_the_last_error_is_told():
 
 def test_the_table_has_ratios_by_round_and_reasons():
     ours = (Measured(4e8, 1e-9, '0.1'), Measured(2e8, 1e-9, '0.1'))
+    one_pass = (Measured(6e8, 1e-8, '0.1'), Measured(3e8, 1e-8, '0.1'))
     peer = (Measured(2e8, -1e-3, '2'), Measured(1e8, -1e-3, '2'))
-    told = lines([Row('hydra_actuator', ours), Row('Peer', peer), Row('Other', (), 'no wheel')])
-    assert told[2].split() == ['hydra_actuator', '0.1', '300.000', '1.00', '1.0e-09']
-    assert told[3].split() == ['Peer', '2', '150.000', '2.00', '-1.0e-03']
-    assert told[4].split(maxsplit=1) == ['Other', 'no wheel']
+    told = lines([Row('ours', ours), Row('one', one_pass), Row('Peer', peer),
+                  Row('Other', (), 'no wheel')])
+    assert told[2].split() == ['ours', '0.1', '300.000', '1.00', '1.50', '1.0e-09']
+    assert told[3].split() == ['one', '0.1', '450.000', '0.67', '1.00', '1.0e-08']
+    assert told[4].split() == ['Peer', '2', '150.000', '2.00', '3.00', '-1.0e-03']
+    assert told[5].split(maxsplit=1) == ['Other', 'no wheel']
