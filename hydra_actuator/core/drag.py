@@ -44,6 +44,7 @@ def sweep_domain_with_drag(model, state, nodes, passes):
     sigma, kappa = model.courant[first], model.slope[first]
     half_kappa, half = 0.5 * kappa, 0.5 * model.step_time
     wave_p, wave_q, drag = state.wave_p, state.wave_q, state.drag
+    wall = wall_of(model, first)
     for i in range(first, end, WIDTH):
         p_behind, p_here, p_ahead = load(wave_p, i - 1), load(wave_p, i), load(wave_p, i + 1)
         q_ahead, q_here, q_behind = load(wave_q, i - 1), load(wave_q, i), load(wave_q, i + 1)
@@ -64,7 +65,7 @@ def sweep_domain_with_drag(model, state, nodes, passes):
         q += model.step_time * (j + theta_q * climb_q)
         for _ in range(len(passes) - 1):
             arrival = p - q
-            j_new = drag_on_arrival(model, state, i, first, 0.5 * arrival)
+            j_new = drag_on_arrival(model, state, i, wall, 0.5 * arrival)
             theta_p = sigma + half_kappa * (here + theta_p * rise_p + arrival)
             theta_q = sigma - half_kappa * (here + theta_q * rise_q + arrival)
             p = p_here + theta_p * (a_1 + theta_p * (a_2 + theta_p * a_3))
@@ -76,21 +77,32 @@ def sweep_domain_with_drag(model, state, nodes, passes):
 
 
 @formula
-def drag_on_arrival(model, state, i, first, velocity):
+def wall_of(model, node):
+    """
+    Return (lambda / 2 [1/m], liveliness [1/s], start of the table) of a node's domain.
+
+    Read once: a loop that writes to arrays would read them again at every turn.
+    """
+    return 0.5 * model.loss[node], model.liveliness[node], model.table_start[node]
+
+
+@formula
+def drag_on_arrival(model, state, i, wall, velocity):
     """
     Return J [m/s^2] of the nodes from i on that go to `velocity` [m/s]; keep their h in `damping`.
 
-    first: a node of the same domain.
+    wall: of their domain, see `wall_of`.
     """
+    half_loss, liveliness, table_start = wall
     speed = abs(velocity)
     # so put that what is no number has a place in the table too
     place = at_most(math.sqrt(speed) * model.table_scale, LAST_PLACE)
-    low, high, rest = look_up(model.damping, model.table_start[first], place)
+    low, high, rest = look_up(model.damping, table_start, place)
     damping = low + rest * (high - low)
     store(state.damping, i, damping)
     change = velocity - 0.5 * (load(state.wave_p, i) - load(state.wave_q, i))
-    steady = velocity * (0.5 * model.loss[first] * speed + damping)
-    return steady + (load(state.fading, i) + model.liveliness[first] * change)
+    steady = velocity * (half_loss * speed + damping)
+    return steady + (load(state.fading, i) + liveliness * change)
 
 
 @formula
@@ -129,23 +141,26 @@ def remember(model, state, first, end):
     Up to WIDTH - 1 nodes beyond the end are written too; none is another domain's.
     """
     loss, inertia = model.loss[first], model.inertia[first]
-    decay, gain, memory = model.decay, model.gain, state.memory
+    memory = state.memory
+    terms, terms_too = (memory[0], memory[1], memory[2]), (memory[3], memory[4], memory[5])
+    decay, decay_too = three_of(model.decay, 0, first), three_of(model.decay, 3, first)
+    gain, gain_too = three_of(model.gain, 0, first), three_of(model.gain, 3, first)
     for i in range(first, end, WIDTH):
         velocity = 0.5 * (load(state.new_p, i) - load(state.new_q, i))
         drag = velocity * (0.5 * loss * abs(velocity) + load(state.damping, i))
         if inertia > 0.0:
             change = velocity - 0.5 * (load(state.wave_p, i) - load(state.wave_q, i))
-            kept, fading = remember_three(
-                (memory[0], memory[1], memory[2]), i, change,
-                (decay[0, first], decay[1, first], decay[2, first]),
-                (gain[0, first], gain[1, first], gain[2, first]))
-            kept_too, fading_too = remember_three(
-                (memory[3], memory[4], memory[5]), i, change,
-                (decay[3, first], decay[4, first], decay[5, first]),
-                (gain[3, first], gain[4, first], gain[5, first]))
+            kept, fading = remember_three(terms, i, change, decay, gain)
+            kept_too, fading_too = remember_three(terms_too, i, change, decay_too, gain_too)
             drag = ((drag + inertia * change) + kept) + kept_too
             store(state.fading, i, fading + fading_too)
         store(state.drag, i, drag)
+
+
+@formula
+def three_of(table, row, node):
+    """Return three numbers of a node from a row of a table (TERMS, N) on."""
+    return table[row, node], table[row + 1, node], table[row + 2, node]
 
 
 @formula

@@ -148,6 +148,11 @@ def _limited(comparison):
     return generate
 
 
+def _chosen(builder, one, other, places):
+    mask = ir.Constant(ir.VectorType(ir.IntType(32), len(places)), list(places))
+    return builder.shuffle_vector(one, other, mask)
+
+
 @intrinsic
 def look_up(typing_context, table, start, places):
     """
@@ -161,14 +166,18 @@ def look_up(typing_context, table, start, places):
         data = builder.gep(array.data, [first])
         counts = ir.VectorType(ir.IntType(32), WIDTH)
         whole = builder.fptosi(places, counts)
-        low = high = ir.Constant(_VECTOR, ir.Undefined)
+        pair = ir.VectorType(ir.DoubleType(), 2)
+        pairs = []
         for k in range(WIDTH):
             lane = ir.Constant(ir.IntType(32), k)
             index = builder.zext(builder.extract_element(whole, lane), ir.IntType(64))
-            here = builder.gep(data, [index])
-            after = builder.gep(here, [ir.Constant(ir.IntType(64), 1)])
-            low = builder.insert_element(low, builder.load(here), lane)
-            high = builder.insert_element(high, builder.load(after), lane)
+            place = builder.bitcast(builder.gep(data, [index]), pair.as_pointer())
+            pairs.append(builder.load(place, align=8))
+        # a pair from each half beside the other, so that the halves of a vector keep their places
+        even = _chosen(builder, pairs[0], pairs[2], (0, 1, 2, 3))
+        odd = _chosen(builder, pairs[1], pairs[3], (0, 1, 2, 3))
+        low = _chosen(builder, even, odd, (0, 4, 2, 6))
+        high = _chosen(builder, even, odd, (1, 5, 3, 7))
         rest = builder.fsub(places, builder.sitofp(whole, _VECTOR))
         return context.make_tuple(builder, signed.return_type, (low, high, rest))
     return types.UniTuple(LANES, 3)(table, types.intp, LANES), generate

@@ -4,7 +4,7 @@
 import math
 
 from hydra_actuator.core.compilation import kernel
-from hydra_actuator.core.drag import drag_at, drag_on_arrival
+from hydra_actuator.core.drag import drag_at, drag_on_arrival, remember, wall_of
 from hydra_actuator.core.lanes import load, store, WIDTH
 from hydra_actuator.core.model import Domain, Junction, Mesh
 from hydra_actuator.core.oil import Oil
@@ -76,8 +76,34 @@ def test_memory_of_the_friction_damps_ringing_faster():
 def drag_of_all(model, state, velocity, drag):
     for d in range(model.start.size):
         first = model.start[d]
+        wall = wall_of(model, first)
         for i in range(first, first + state.last[d] + 1, WIDTH):
-            store(drag, i, drag_on_arrival(model, state, i, first, load(velocity, i)))
+            store(drag, i, drag_on_arrival(model, state, i, wall, load(velocity, i)))
+
+
+@kernel
+def remember_domain(model, state, first, end):
+    remember(model, state, first, end)
+
+
+def test_memory_and_drag_are_renewed_as_the_recursion_says():
+    chain = LoneChain([line('unsteady')], ends(0, 0), Mesh(STEP), OIL)
+    chain.hold(5e5)
+    chain.advance(150)
+    model, state = chain.model, chain.state
+    first, end = model.start[0], model.start[0] + state.last[0] + 1
+    nodes = slice(first, end)
+    state.new_p[nodes] += np.random.default_rng(2).normal(0.0, 0.1, end - first)
+    old, new = (0.5 * (p[nodes] - q[nodes]) for p, q in (
+        (state.wave_p, state.wave_q), (state.new_p, state.new_q)))
+    decay, gain = model.decay[:, nodes], model.gain[:, nodes]
+    kept = decay * state.memory[:, nodes] + gain * (new - old)
+    drag = new * state.damping[nodes] + model.inertia[nodes] * (new - old) + kept.sum(axis=0)
+    remember_domain(model, state, first, end)
+    assert state.memory[:, nodes] == pytest.approx(kept, rel=1e-12, abs=1e-15)
+    assert state.fading[nodes] == pytest.approx((decay * kept).sum(axis=0), rel=1e-11, abs=1e-13)
+    assert state.drag[nodes] == pytest.approx(drag, rel=1e-11, abs=1e-13)
+    assert np.ptp(drag) > 0.1
 
 
 def test_the_drag_of_one_node_is_that_of_the_loop_over_all():
