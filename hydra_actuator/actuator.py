@@ -141,7 +141,7 @@ class Actuator:
         """
         table = self._table[0]
         table[SPOOL_1], table[SPOOL_2], table[LOAD_FORCE] = spool_1, spool_2, load_force
-        code = self._run(self._schedule, self.steps_per_period)
+        code = self.go_on(self._schedule, self.steps_per_period)
         self._observe()
         note_extremes(self._extremes, self.row, self.channels.lowest_pressure)
         return code
@@ -153,14 +153,18 @@ class Actuator:
         schedule: (times (T,) [s] increasing, commands (T, 3): spool 1, spool 2 and load force,
         hold: keep each row until the next, else linear between rows).
         """
+        code = self.go_on(self.schedule_of(schedule), steps)
+        self._observe()
+        return code
+
+    def schedule_of(self, schedule: tuple[np.ndarray, np.ndarray, bool]) -> tuple:
+        """Return a schedule with all inputs, from the row in force now on; see `follow`."""
         times, commands, hold = schedule
         first = max(0, int(np.searchsorted(times, self.time, side='right')) - 1)
         table = np.empty((len(times) - first, INPUTS))
         table[:, :TANK_PRESSURE] = commands[first:]
         table[:, TANK_PRESSURE] = self._table[0, TANK_PRESSURE]
-        code = self._run((np.ascontiguousarray(times[first:]), table, hold), steps)
-        self._observe()
-        return code
+        return np.ascontiguousarray(times[first:]), table, hold
 
     def advance(self, duration: float, spool: float | tuple[float, float] | None = None,
                 load_force: float | None = None) -> ActuatorState:
@@ -180,7 +184,7 @@ class Actuator:
             table[LOAD_FORCE] = load_force
         if not 0.0 <= duration < math.inf:
             raise ValueError(f'duration {duration!r} is not a time of zero or more seconds')
-        code = self._run(self._schedule, math.ceil(duration / self.step_time - 1e-6))
+        code = self.go_on(self._schedule, math.ceil(duration / self.step_time - 1e-6))
         self._observe()
         if code:
             raise SolverError(self.status_message(code))
@@ -242,8 +246,12 @@ class Actuator:
         """Write absolute pressure [Pa] and velocity [m/s] of all nodes, float32 (nodes, 2)."""
         read_field(self._model, self._state, self._ambient, out)
 
-    def _run(self, schedule: tuple, steps: int) -> int:
-        """Advance; at whole periods the supply moves and the fault script acts."""
+    def go_on(self, schedule: tuple, steps: int) -> int:
+        """
+        Advance under a schedule of all inputs and return the status code; nothing is read.
+
+        At whole periods the supply moves and the fault script acts.
+        """
         if not steps or (self.supply.resting and self.faults.next_time == math.inf):
             return self._advance(schedule, steps)
         code = 0
