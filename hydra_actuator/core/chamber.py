@@ -30,7 +30,7 @@ def extend_to_face(values, last_node, cells, face, leaving):
     leaving the face: see fill_ghost. All ghosts lie on the same polynomial.
     A node that appears takes P from a sweep that reads the third.
     """
-    face_value, fraction = face
+    _, fraction = face
     here = values[last_node]
     d_2 = here - values[last_node - 1]
     d_3, d_4 = d_2, d_2
@@ -40,21 +40,35 @@ def extend_to_face(values, last_node, cells, face, leaving):
     through_face = fraction >= NEAREST and cells >= 2
     if cells >= LONG or (cells >= 3 and not leaving):
         d_4 = values[last_node - 2] - values[last_node - 3]
-    if not through_face:
-        curve = d_2 - d_3
-        twist = (d_2 - d_3) - (d_3 - d_4)
-        values[last_node + 1] = here + (d_2 + (curve + twist))
-        values[last_node + 2] = here + (2.0 * d_2 + (3.0 * curve + 4.0 * twist))
-        values[last_node + 3] = here + (3.0 * d_2 + (6.0 * curve + 10.0 * twist))
-        return
+    if through_face:
+        beyond = beyond_through_face(here, face, d_2, d_3)
+    else:
+        beyond = beyond_through_nodes(here, d_2, d_3, d_4)
+    values[last_node + 1], values[last_node + 2], values[last_node + 3] = beyond
+
+
+@formula
+def beyond_through_nodes(here, d_2, d_3, d_4):
+    """Return three nodes beyond the last one, by it and the differences of four nodes."""
+    curve = d_2 - d_3
+    twist = (d_2 - d_3) - (d_3 - d_4)
+    return (here + (d_2 + (curve + twist)),
+            here + (2.0 * d_2 + (3.0 * curve + 4.0 * twist)),
+            here + (3.0 * d_2 + (6.0 * curve + 10.0 * twist)))
+
+
+@formula
+def beyond_through_face(here, face, d_2, d_3):
+    """Return three nodes beyond the last one, by the face and three nodes; see extend_to_face."""
+    face_value, fraction = face
     # divided differences over the offsets 0, fraction, -1, -2, evaluated at 1, 2 and 3
     first = (face_value - here) / fraction
     second = (first - d_2) / (fraction + 1.0)
     third = (second - 0.5 * (d_2 - d_3)) / (fraction + 2.0)
     gap = 1.0 - fraction
-    values[last_node + 1] = here + (first + gap * (second + 2.0 * third))
-    values[last_node + 2] = here + 2.0 * (first + (gap + 1.0) * (second + 3.0 * third))
-    values[last_node + 3] = here + 3.0 * (first + (gap + 2.0) * (second + 4.0 * third))
+    return (here + (first + gap * (second + 2.0 * third)),
+            here + 2.0 * (first + (gap + 1.0) * (second + 3.0 * third)),
+            here + 3.0 * (first + (gap + 2.0) * (second + 4.0 * third)))
 
 
 @formula
@@ -67,20 +81,34 @@ def wave_at_face(waves, node, distance, mesh, third_order, guess):
     """
     wave_p, wave_q = waves
     courant, slope, _ = mesh
-    sigma, kappa = courant[node], slope[node]
     arrival, theta = guess
+    nodes = ((wave_p[node + 1], wave_p[node], wave_p[node - 1], wave_p[node - 2]),
+             (wave_q[node], wave_q[node - 1]))
+    return wave_before_face(nodes, distance, (courant[node], slope[node]), third_order, guess,
+                            (arrival == arrival, theta == theta))
+
+
+@formula
+def wave_before_face(nodes, distance, mesh, third_order, guess, known):
+    """
+    Return what `wave_at_face` does.
+
+    nodes: (P (beyond the last whole node, there, behind, far), Q (there, behind)); mesh:
+    (courant, slope); known: whether the guess's velocity and theta are.
+    """
+    (ahead, here, behind, far), (other_here, other_behind) = nodes
+    sigma, kappa = mesh
+    arrival, theta = guess
+    knows_arrival, knows_theta = known
     # twice the velocity, as the mesh's constants want it
-    here = wave_p[node] - wave_q[node]
-    rise = (wave_p[node - 1] - wave_q[node - 1]) - here
-    if theta != theta:
-        theta = sigma + kappa * (here + (sigma - distance) * rise)
-    if arrival == arrival:
-        foot = here + (theta - distance) * rise
+    speed = here - other_here
+    rise = (behind - other_behind) - speed
+    if not knows_theta:
+        theta = sigma + kappa * (speed + (sigma - distance) * rise)
+    if knows_arrival:
+        foot = speed + (theta - distance) * rise
         theta = sigma + 0.5 * kappa * (foot + 2.0 * arrival)
-    wave = interpolate(
-        wave_p[node + 1], wave_p[node], wave_p[node - 1], wave_p[node - 2],
-        theta - distance, third_order)
-    return wave, theta
+    return interpolate(ahead, here, behind, far, theta - distance, third_order), theta
 
 
 @formula
@@ -107,13 +135,29 @@ def renew_last_nodes(model, state, domain, new_last, returned, passes):
     end = 2 * domain + 1
     face_velocity = state.end_velocity[end]
     spacing, wave_speed = model.spacing[domain], model.wave_speed[domain]
+    history = (state.face_q[domain, 0], state.face_q[domain, 1])
+    speeds = (face_velocity, wave_speed, model.step_time)
     for node in range(old_last, new_last + 1):
         distance = state.length[domain] - node * spacing
-        p = state.new_p[start + node]
-        q = 0.0
-        here = face_velocity
-        for _ in range(len(passes)):
-            lag = distance / ((wave_speed + 0.5 * (face_velocity - here)) * model.step_time)
-            q = wave_from_face(state.face_q[domain], returned, lag, model.third_order)
-            here = 0.5 * (p - q)
-        state.new_q[start + node] = q
+        state.new_q[start + node] = wave_to_node(
+            state.new_p[start + node], distance, (history, returned), speeds,
+            (model.third_order, passes))
+
+
+@formula
+def wave_to_node(p, distance, path, speeds, scheme):
+    """
+    Return Q [m/s] of a node that the face feeds, from its own P [m/s] and distance [m].
+
+    path: (Q that left the face one and two levels ago, the same now); speeds: (of the face, of
+    waves [m/s], step time [s]); scheme as of `sweep`.
+    """
+    history, returned = path
+    face_velocity, wave_speed, step_time = speeds
+    third_order, passes = scheme
+    q, here = returned, face_velocity
+    for _ in range(len(passes)):
+        lag = distance / ((wave_speed + 0.5 * (face_velocity - here)) * step_time)
+        q = wave_from_face(history, returned, lag, third_order)
+        here = 0.5 * (p - q)
+    return q

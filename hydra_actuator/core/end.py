@@ -67,12 +67,26 @@ def end_relation(end, velocity):
     else:
         compression = relative_compression((end.wave - velocity) * end.slowness)
     mach = velocity * end.slowness
-    growth = 1.0 + mach * (1.0 + mach * (1.0 + mach))
-    lightness = 1.0 - compression * (1.0 - compression * (1.0 - compression))
+    growth, lightness = steering_series(mach, compression)
     if abs(mach) > SERIES_REACH:
         growth = 1.0 / (1.0 - min(max(mach, -MOST_STEERED), MOST_STEERED))
     if abs(compression) > SERIES_REACH:
         lightness = 1.0 / (1.0 + max(compression, -MOST_STEERED))
+    return relation_of(end, velocity, compression, (growth, lightness, softness))
+
+
+@formula
+def steering_series(mach, compression):
+    """Return short series of 1/(1 - v/c) and 1/(1 + p/chi)."""
+    growth = 1.0 + mach * (1.0 + mach * (1.0 + mach))
+    lightness = 1.0 - compression * (1.0 - compression * (1.0 - compression))
+    return growth, lightness
+
+
+@formula
+def relation_of(end, velocity, compression, steering):
+    """Return what `end_relation` does, from p/chi and (1/(1 - v/c), 1/(1 + p/chi), softness)."""
+    growth, lightness, softness = steering
     flow = velocity * (end.area + end.area * compression)
     flatness = growth * lightness * end.inverse_area
     return end.bulk_modulus * compression, flow, end.impedance * growth * softness, flatness

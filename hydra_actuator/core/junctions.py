@@ -9,7 +9,12 @@ from hydra_actuator.core.cavity import face_strength
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.end import End
 from hydra_actuator.core.orifice import solve_orifice
-from hydra_actuator.core.piston import face_pressures, implicitness, move_piston
+from hydra_actuator.core.piston import (
+    face_pressures,
+    force_on_piston,
+    implicitness,
+    move_piston,
+)
 from hydra_actuator.core.records import (
     CLOSED,
     FLOW,
@@ -104,9 +109,8 @@ def solve_piston_junction(model, state, junction, inputs):
     p_1, p_2, _, _, u_1, u_2 = face_pressures(ends, piston, velocity, slip)
     motion.new_position = position
     motion.new_velocity = velocity
-    motion.new_force = (
-        model.area[d_1] * p_1 - model.area[d_2] * p_2 - piston.stiffness * position
-        - piston.viscous * velocity - load_force)
+    motion.new_force = force_on_piston(
+        (model.area[d_1], model.area[d_2]), (p_1, p_2), piston, (position, velocity), load_force)
     motion.hit = hit
     motion.slip_1, motion.slip_2 = u_1 - velocity, u_2 - velocity
     state.end_velocity[face_1] = u_1

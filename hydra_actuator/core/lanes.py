@@ -13,6 +13,7 @@ one. Each lane has the bits that the same formula gives with floats.
 import math
 import operator
 
+from hydra_actuator.core.compilation import formula
 from llvmlite import ir
 from numba.core import types
 from numba.core.datamodel.models import PrimitiveModel
@@ -83,14 +84,34 @@ def _define_function(function, name) -> None:
         return builder.call(_declared(builder.module, name), arguments)
 
 
-def _declared(module, name):
+def _declared(module, name, operands=1):
     name = f'llvm.{name}.v{WIDTH}f64'
     known = module.globals.get(name)
-    return known or ir.Function(module, ir.FunctionType(_VECTOR, [_VECTOR]), name)
+    return known or ir.Function(module, ir.FunctionType(_VECTOR, [_VECTOR] * operands), name)
 
 
 _define_function(abs, 'fabs')
 _define_function(math.sqrt, 'sqrt')
+
+
+@infer_global(operator.neg)
+class _Negation(ConcreteTemplate):
+    cases = [signature(LANES, LANES)]
+
+
+@lower_builtin(operator.neg, LANES)
+def _negate(context, builder, signed, arguments):
+    return builder.fneg(arguments[0])
+
+
+@infer_global(math.copysign)
+class _Copysign(ConcreteTemplate):
+    cases = [signature(LANES, LANES, LANES)]
+
+
+@lower_builtin(math.copysign, LANES, LANES)
+def _copy_sign(context, builder, signed, arguments):
+    return builder.call(_declared(builder.module, 'copysign', 2), arguments)
 
 
 def _place(context, builder, signed, arguments):
@@ -124,6 +145,79 @@ def where_positive(typing_context, lanes, then, otherwise):
         above = builder.fcmp_ordered('>', arguments[0], zero)
         return builder.select(above, arguments[1], arguments[2])
     return LANES(LANES, LANES, LANES), generate
+
+
+@intrinsic
+def multiply_add(typing_context, a, b, c):
+    """
+    Return a b + c of floats or of lanes, rounded once where the processor can.
+
+    Where both sides of a sum are products the compiler is free which to fuse; this says which.
+    """
+    kind = _VECTOR if a is LANES else ir.DoubleType()
+
+    def generate(context, builder, signed, arguments):
+        name = f'llvm.fmuladd.{f"v{WIDTH}f64" if a is LANES else "f64"}'
+        known = builder.module.globals.get(name)
+        return builder.call(
+            known or ir.Function(builder.module, ir.FunctionType(kind, [kind] * 3), name),
+            arguments)
+    return a(a, a, a), generate
+
+
+@intrinsic
+def where_at_most(typing_context, lanes, limit, then, otherwise):
+    """Return `then` in the lanes that are at most the limit, `otherwise` elsewhere and at NaN."""
+    def generate(context, builder, signed, arguments):
+        inside = builder.fcmp_ordered('<=', arguments[0], arguments[1])
+        return builder.select(inside, arguments[2], arguments[3])
+    return LANES(LANES, LANES, LANES, LANES), generate
+
+
+@intrinsic
+def all_at_most(typing_context, lanes, limit):
+    """Return whether every lane is at most that of the limit; no NaN is."""
+    def generate(context, builder, signed, arguments):
+        beyond = builder.fcmp_unordered('>', arguments[0], arguments[1])
+        bits = builder.bitcast(beyond, ir.IntType(WIDTH))
+        return builder.icmp_unsigned('==', bits, ir.Constant(ir.IntType(WIDTH), 0))
+    return types.boolean(LANES, LANES), generate
+
+
+@intrinsic
+def gather(typing_context, array, indices, first, shift):
+    """Return the doubles array[indices[first + l] + shift], lane by lane; none below 0."""
+    def generate(context, builder, signed, arguments):
+        lanes = ir.Constant(_VECTOR, ir.Undefined)
+        for k, place in enumerate(_places(context, builder, signed, arguments)):
+            lane = ir.Constant(ir.IntType(32), k)
+            lanes = builder.insert_element(lanes, builder.load(place), lane)
+        return lanes
+    return LANES(array, indices, types.intp, types.intp), generate
+
+
+@intrinsic
+def scatter(typing_context, array, indices, first, shift, lanes):
+    """Write the lanes to array[indices[first + l] + shift]."""
+    def generate(context, builder, signed, arguments):
+        for k, place in enumerate(_places(context, builder, signed, arguments)):
+            lane = ir.Constant(ir.IntType(32), k)
+            builder.store(builder.extract_element(arguments[4], lane), place)
+        return context.get_dummy_value()
+    return types.void(array, indices, types.intp, types.intp, LANES), generate
+
+
+def _places(context, builder, signed, arguments):
+    """Return the addresses that `gather` and `scatter` go to."""
+    array, indices, first, shift = arguments[:4]
+    data = make_array(signed.args[0])(context, builder, array).data
+    indices = make_array(signed.args[1])(context, builder, indices).data
+    start = builder.gep(indices, [first])
+    places = []
+    for k in range(WIDTH):
+        index = builder.load(builder.gep(start, [ir.Constant(ir.IntType(64), k)]))
+        places.append(builder.gep(data, [builder.add(index, shift)]))
+    return places
 
 
 @intrinsic
@@ -181,3 +275,15 @@ def look_up(typing_context, table, start, places):
         rest = builder.fsub(places, builder.sitofp(whole, _VECTOR))
         return context.make_tuple(builder, signed.return_type, (low, high, rest))
     return types.UniTuple(LANES, 3)(table, types.intp, LANES), generate
+
+
+@formula
+def element(values, e):
+    """Return the lanes of element e of an array in which each element stands WIDTH times."""
+    return load(values, WIDTH * e)
+
+
+@formula
+def put(values, e, lanes):
+    """Write the lanes of one element."""
+    store(values, WIDTH * e, lanes)

@@ -20,7 +20,7 @@ swept alike. Neglected: variation over the cross-section, frequency-dependent fr
 """
 
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.lanes import load, store, WIDTH
+from hydra_actuator.core.lanes import load, multiply_add, store, WIDTH
 
 # Cells from which on no wave grows with cubics at both ends, whatever the Courant number, the next
 # line and what the ends reflect; with a parabola none does in shorter lines either.
@@ -38,10 +38,15 @@ def cubic(ahead, here, behind, far, third_order):
     The polynomial through offsets -1 (ahead), 0 (here), 1 (behind) and 2 (far), which count cells
     against the direction of travel; third_order 1 is the cubic, 0 the line through 0 and 1.
     """
-    slope = behind - here
+    return cubic_by_slopes(behind - here, here - ahead, far - ahead, third_order)
+
+
+@formula
+def cubic_by_slopes(slope, slope_ahead, span, third_order):
+    """Return what `cubic` does, from behind - here, here - ahead and far - ahead."""
     half_slope = (0.5 * third_order) * slope
-    second = (0.5 * third_order) * (ahead - here) + half_slope
-    third = (third_order * (1.0 / 6.0)) * (far - ahead) - half_slope
+    second = half_slope - (0.5 * third_order) * slope_ahead
+    third = (third_order * (1.0 / 6.0)) * span - half_slope
     return slope - second - third, second, third
 
 
@@ -65,35 +70,53 @@ def sweep(waves, new_waves, mesh, nodes, scheme):
     """
     wave_p, wave_q = waves
     new_p, new_q = new_waves
-    sigma, kappa, loss = mesh
-    half_kappa, half_loss = 0.5 * kappa, 0.5 * loss
     third_order, passes = scheme
     first, end = nodes
     for i in range(first, end, WIDTH):
-        p_far, p_behind, p_here = load(wave_p, i - 2), load(wave_p, i - 1), load(wave_p, i)
-        p_ahead, q_ahead = load(wave_p, i + 1), load(wave_q, i - 1)
-        q_here, q_behind, q_far = load(wave_q, i), load(wave_q, i + 1), load(wave_q, i + 2)
-        a_1, a_2, a_3 = cubic(p_ahead, p_here, p_behind, p_far, third_order)
-        b_1, b_2, b_3 = cubic(q_ahead, q_here, q_behind, q_far, third_order)
-        here = p_here - q_here
-        rise_p = (p_behind - p_here) - (q_ahead - q_here)
-        rise_q = (p_ahead - p_here) - (q_behind - q_here)
-        foot_p, foot_q = here + sigma * rise_p, here + sigma * rise_q
-        theta_p, theta_q = sigma + kappa * foot_p, sigma - kappa * foot_q
-        lost_p, lost_q = loss * (foot_p * abs(foot_p)), loss * (foot_q * abs(foot_q))
-        for _ in range(len(passes) - 1):
-            arrival = (here - lost_p - lost_q) + theta_p * (a_1 + theta_p * (a_2 + theta_p * a_3))
-            arrival -= theta_q * (b_1 + theta_q * (b_2 + theta_q * b_3))
-            drag = arrival * abs(arrival)
-            foot_p, foot_q = here + theta_p * rise_p, here + theta_q * rise_q
-            theta_p = sigma + half_kappa * (foot_p + arrival)
-            theta_q = sigma - half_kappa * (foot_q + arrival)
-            lost_p = half_loss * (foot_p * abs(foot_p) + drag)
-            lost_q = half_loss * (foot_q * abs(foot_q) + drag)
-        p = (p_here - lost_p) + theta_p * (a_1 + theta_p * (a_2 + theta_p * a_3))
-        q = (q_here + lost_q) + theta_q * (b_1 + theta_q * (b_2 + theta_q * b_3))
+        p_ahead, p_here, p_behind = load(wave_p, i + 1), load(wave_p, i), load(wave_p, i - 1)
+        q_ahead, q_here, q_behind = load(wave_q, i - 1), load(wave_q, i), load(wave_q, i + 1)
+        slope_p, slope_q = p_behind - p_here, q_behind - q_here
+        p_falls, q_falls = p_here - p_ahead, q_here - q_ahead
+        p, q = new_waves_of(
+            (p_here, slope_p, p_falls, load(wave_p, i - 2) - p_ahead),
+            (q_here, slope_q, q_falls, load(wave_q, i + 2) - q_ahead),
+            (slope_p + q_falls, p_falls + slope_q), mesh, third_order, passes)
         store(new_p, i, p)
         store(new_q, i, q)
+
+
+@formula
+def new_waves_of(wave_p, wave_q, rises, mesh, third_order, passes):
+    """
+    Return (P, Q) of a node one step later.
+
+    wave_p, wave_q: (here, behind - here, here - ahead, far - ahead), ahead and behind as each
+    wave travels; rises: of 2 u from the node back towards the left, and from its right
+    neighbour to the node; the rest as `sweep`.
+    """
+    p_here, p_slope, p_falls, p_span = wave_p
+    q_here, q_slope, q_falls, q_span = wave_q
+    rise, fall = rises
+    sigma, kappa, loss = mesh
+    half_kappa, half_loss = 0.5 * kappa, 0.5 * loss
+    a_1, a_2, a_3 = cubic_by_slopes(p_slope, p_falls, p_span, third_order)
+    b_1, b_2, b_3 = cubic_by_slopes(q_slope, q_falls, q_span, third_order)
+    here = p_here - q_here
+    foot_p, foot_q = here + sigma * rise, here - sigma * fall
+    theta_p, theta_q = sigma + kappa * foot_p, sigma - kappa * foot_q
+    lost_p, lost_q = loss * (foot_p * abs(foot_p)), loss * (foot_q * abs(foot_q))
+    for _ in range(len(passes) - 1):
+        arrival = (here - lost_p - lost_q) + theta_p * (a_1 + theta_p * (a_2 + theta_p * a_3))
+        arrival -= theta_q * (b_1 + theta_q * (b_2 + theta_q * b_3))
+        drag = arrival * abs(arrival)
+        foot_p, foot_q = here + theta_p * rise, here - theta_q * fall
+        theta_p = sigma + half_kappa * (foot_p + arrival)
+        theta_q = sigma - half_kappa * (foot_q + arrival)
+        lost_p = half_loss * (foot_p * abs(foot_p) + drag)
+        lost_q = half_loss * (foot_q * abs(foot_q) + drag)
+    p = (p_here - lost_p) + theta_p * (a_1 + theta_p * (a_2 + theta_p * a_3))
+    q = (q_here + lost_q) + theta_q * (b_1 + theta_q * (b_2 + theta_q * b_3))
+    return p, q
 
 
 @formula
@@ -134,22 +157,43 @@ def arriving_wave(outgoing, returning, node, side, mesh, third_order, guess):
     """
     courant, slope, friction = mesh
     back = -1 if side == 1 else 1
-    sigma, kappa, loss = courant[node], slope[node], friction[node]
     arrival, theta = guess
+    nodes = ((outgoing[node - back], outgoing[node], outgoing[node + back],
+              outgoing[node + 2 * back]), (returning[node], returning[node + back]))
+    return wave_between(nodes, (courant[node], slope[node], friction[node]), third_order,
+                        guess, (arrival == arrival, theta == theta))
+
+
+@formula
+def wave_between(nodes, mesh, third_order, guess, known):
+    """
+    Return what `arriving_wave` does.
+
+    nodes: ((ahead, here, behind, far) of the wave that arrives, (here, behind) of the other);
+    mesh: (courant, slope, friction); known: whether the guess's velocity and theta are.
+    """
+    (ahead, here, behind, far), (other_here, other_behind) = nodes
+    sigma, kappa, loss = mesh
+    arrival, theta = guess
+    knows_arrival, knows_theta = known
     # twice the velocity towards the end, v = s u, as the mesh's constants want it
-    here = outgoing[node] - returning[node]
-    rise = (outgoing[node + back] - returning[node + back]) - here
-    if theta != theta:
-        theta = sigma + kappa * (here + sigma * rise)
-    foot = here + theta * rise
+    speed = here - other_here
+    rise = (behind - other_behind) - speed
+    if not knows_theta:
+        theta = sigma + kappa * (speed + sigma * rise)
+    foot = speed + theta * rise
     drag = foot * abs(foot)
-    if arrival == arrival:
+    if knows_arrival:
         theta = sigma + 0.5 * kappa * (foot + 2.0 * arrival)
-        drag = 0.5 * (drag + 4.0 * arrival * abs(arrival))
-    wave = interpolate(
-        outgoing[node - back], outgoing[node], outgoing[node + back],
-        outgoing[node + 2 * back], theta, third_order)
-    return wave - loss * drag, theta
+        drag = 0.5 * multiply_add(4.0 * arrival, abs(arrival), drag)
+    return interpolate(ahead, here, behind, far, theta, third_order) - loss * drag, theta
+
+
+@formula
+def beyond_by_cubic(first, second, third, fourth):
+    """Return the cubic through four nodes, the first at the end, one node beyond it."""
+    slope = first - second
+    return first + (3.0 * (slope - (second - third)) + (third - fourth))
 
 
 @formula
@@ -166,8 +210,8 @@ def fill_ghost(values, end, inward, cells, leaving):
     first, second = values[end], values[end + inward]
     slope = first - second
     if cells >= LONG or (cells >= 3 and not leaving):
-        third, fourth = values[end + 2 * inward], values[end + 3 * inward]
-        values[end - inward] = first + (3.0 * (slope - (second - third)) + (third - fourth))
+        values[end - inward] = beyond_by_cubic(
+            first, second, values[end + 2 * inward], values[end + 3 * inward])
     elif cells >= 2:
         values[end - inward] = first + (2.0 * slope - (second - values[end + 2 * inward]))
     else:

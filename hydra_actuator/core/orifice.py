@@ -13,6 +13,7 @@ import math
 
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.end import end_relation
+from hydra_actuator.core.lanes import multiply_add
 
 # Largest last step of Newton, relative. A step dv leaves dv^2/2c, and 4e-7 dv of the short series
 # at 35 MPa: with this, law and mass at a junction hold to 1e-10. Below the second, in m/s, is the
@@ -41,7 +42,8 @@ def orifice_flow(difference, impedance, coefficient, leakage):
     turbulent = impedance * coefficient
     root = 2.0 * size / (
         turbulent
-        + math.sqrt(turbulent * turbulent + 4.0 * (1.0 + impedance * leakage) * size)
+        + math.sqrt(multiply_add(
+            turbulent, turbulent, 4.0 * (1.0 + impedance * leakage) * size))
         + 1e-300)
     flow = (leakage * root + coefficient) * root
     return math.copysign(flow, difference)
@@ -77,7 +79,8 @@ def solve_orifice(end_1, end_2, coefficient, leakage):
         p_1, q_1, z_1, flatness_1 = end_relation(end_1, v_1)
         p_2, q_2, z_2, flatness_2 = end_relation(end_2, v_2)
         flow = orifice_flow(
-            p_1 - p_2 + (z_1 * q_1 - z_2 * q_2), z_1 + z_2, coefficient, leakage)
+            multiply_add(z_1, q_1, p_1) - multiply_add(z_2, q_2, p_2), z_1 + z_2,
+            coefficient, leakage)
         change_1 = (flow - q_1) * flatness_1
         change_2 = -(flow + q_2) * flatness_2
         v_1 += change_1

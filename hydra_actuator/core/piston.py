@@ -19,6 +19,7 @@ import math
 
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.end import end_relation
+from hydra_actuator.core.lanes import multiply_add
 from hydra_actuator.core.orifice import settled
 
 MOST_PASSES = 60
@@ -90,8 +91,8 @@ def seal_friction(piston, speed):
 def implicitness(ends, piston, step_time):
     """Return theta of the momentum balance: 1/2, more where the mass is light against the oil."""
     end_1, end_2 = ends
-    damping = (end_1.impedance * end_1.area ** 2 + end_2.impedance * end_2.area ** 2
-               + piston.viscous)
+    damping = multiply_add(
+        end_1.impedance, end_1.area ** 2, end_2.impedance * end_2.area ** 2) + piston.viscous
     return max(0.5, 1.0 - piston.mass / (damping * step_time))
 
 
@@ -102,18 +103,40 @@ def momentum_defect(ends, piston, motion, load_force, velocity):
 
     motion: (position, velocity, R) of the old level, theta, step time, slip (see face_pressures).
     """
-    x_old, v_old, force_old, theta, step_time, slip = motion
-    p_1, p_2, stiffness_1, stiffness_2, _, _ = face_pressures(ends, piston, velocity, slip)
-    area_1, area_2 = ends[0].area, ends[1].area
-    x = x_old + step_time * (theta * velocity + (1.0 - theta) * v_old)
-    force = (area_1 * p_1 - area_2 * p_2 - piston.stiffness * x
-             - piston.viscous * velocity - load_force)
+    p_1, p_2, stiffness_1, stiffness_2, _, _ = face_pressures(ends, piston, velocity, motion[5])
+    return balance_momentum(
+        (ends[0].area, ends[1].area), (p_1, p_2, stiffness_1, stiffness_2), piston, motion,
+        load_force, velocity)
+
+
+@formula
+def balance_momentum(areas, faces, piston, motion, load_force, velocity):
+    """Return what `momentum_defect` does; faces: (p_E, p_F, stiffness_E, stiffness_F)."""
+    _, v_old, force_old, theta, step_time, _ = motion
+    p_1, p_2, stiffness_1, stiffness_2 = faces
+    force = force_on_piston(
+        areas, (p_1, p_2), piston, (position_after(motion, velocity), velocity), load_force)
     defect = (piston.mass * (velocity - v_old) / step_time
               - theta * force - (1.0 - theta) * force_old)
+    softness = multiply_add(areas[0], stiffness_1, areas[1] * stiffness_2)
     slope = piston.mass / step_time + theta * (
-        area_1 * stiffness_1 + area_2 * stiffness_2 + piston.viscous
-        + piston.stiffness * theta * step_time)
+        softness + piston.viscous + piston.stiffness * theta * step_time)
     return defect, slope, force
+
+
+@formula
+def position_after(motion, velocity):
+    """Return the position [m] after a step that ends at a velocity [m/s]."""
+    x_old, v_old, _, theta, step_time, _ = motion
+    return x_old + step_time * multiply_add(theta, velocity, (1.0 - theta) * v_old)
+
+
+@formula
+def force_on_piston(areas, pressures, piston, place, load_force):
+    """Return R [N]; place: (position [m], velocity [m/s])."""
+    position, velocity = place
+    oil = multiply_add(areas[0], pressures[0], -areas[1] * pressures[1])
+    return oil - piston.stiffness * position - piston.viscous * velocity - load_force
 
 
 @formula
@@ -169,9 +192,9 @@ def slide(ends, piston, motion, load_force, guess):
 @formula
 def move_piston(ends, piston, motion, load_force, guess):
     """Return (position [m], velocity [m/s], hit) after one step, end stops included."""
-    x_old, v_old, _, theta, step_time, _ = motion
+    v_old = motion[1]
     velocity = slide(ends, piston, motion, load_force, guess)
-    position = x_old + step_time * (theta * velocity + (1.0 - theta) * v_old)
+    position = position_after(motion, velocity)
     if not abs(position) > piston.limit:
         return position, velocity, 0
     side = math.copysign(1.0, position)

@@ -18,6 +18,7 @@ import math
 
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.end import end_relation
+from hydra_actuator.core.lanes import multiply_add
 from hydra_actuator.core.orifice import MOST_PASSES, orifice_drop, settled, solve_orifice
 import numpy as np
 
@@ -227,6 +228,13 @@ def spool_transition(natural_frequency: float, damping_ratio: float,
 
 
 @formula
+def let_go(transition, deviation, velocity):
+    """Return a spool's (deviation [m], velocity [m/s]) one step after."""
+    return (multiply_add(transition[0], deviation, transition[1] * velocity),
+            multiply_add(transition[2], deviation, transition[3] * velocity))
+
+
+@formula
 def move_spool(valve, position, velocity, command):
     """
     Return the spool's (displacement [m], velocity [m/s]) one step after, towards a command [m].
@@ -239,8 +247,7 @@ def move_spool(valve, position, velocity, command):
         target = math.copysign(valve.stroke, command)
     if valve.natural_frequency > 0.0:
         deviation = position - target
-        moved = valve.transition[0] * deviation + valve.transition[1] * velocity
-        speed = valve.transition[2] * deviation + valve.transition[3] * velocity
+        moved, speed = let_go(valve.transition, deviation, velocity)
         moved += target
     else:
         moved = target

@@ -5,11 +5,18 @@ import math
 
 from hydra_actuator.core.compilation import kernel
 from hydra_actuator.core.lanes import (
+    all_at_most,
     at_least,
     at_most,
+    element,
+    gather,
     load,
     look_up,
+    multiply_add,
+    put,
+    scatter,
     store,
+    where_at_most,
     where_positive,
     WIDTH,
 )
@@ -50,6 +57,31 @@ def choices(a, limit, out):
 
 
 @kernel
+def two_products(a, b, c, d, out):
+    put(out, 0, multiply_add(load(a, 0), load(b, 0), load(c, 0) * load(d, 0)))
+    for k in range(WIDTH):
+        out[WIDTH + k] = multiply_add(a[k], b[k], c[k] * d[k])
+
+
+@kernel
+def signs(a, out):
+    put(out, 0, -load(a, 0))
+    put(out, 1, math.copysign(load(a, WIDTH), load(a, 0)))
+
+
+@kernel
+def limits(a, b, out):
+    x, y = element(a, 0), element(b, 0)
+    put(out, 0, where_at_most(x, y, 2.0 + 0.0 * element(out, 0), element(out, 0)))
+    return all_at_most(x, y)
+
+
+@kernel
+def moved(values, places, out):
+    scatter(out, places, WIDTH, 1, gather(values, places, 0, 2))
+
+
+@kernel
 def interpolated(table, start, places, out):
     low, high, rest = look_up(table, start, load(places, 0))
     store(out, 0, low + rest * (high - low))
@@ -77,3 +109,37 @@ def test_a_table_is_looked_up_at_each_lanes_own_place(start):
     out = np.zeros(WIDTH)
     interpolated(table, start, places, out)
     assert out == pytest.approx(np.interp(start + places, np.arange(20.0), table), rel=1e-14)
+
+
+def test_a_sum_of_two_products_rounds_alike_in_lanes_and_in_floats():
+    random = np.random.default_rng(7)
+    for _ in range(50):
+        a, b, c, d = random.normal(size=(4, WIDTH))
+        out = np.zeros(2 * WIDTH)
+        two_products(a, b, c, d, out)
+        assert out[:WIDTH].tolist() == out[WIDTH:].tolist()
+        assert out[:WIDTH] == pytest.approx(a * b + c * d, rel=1e-14, abs=1e-15)
+
+
+def test_signs_are_those_of_floats():
+    out = np.zeros(2 * WIDTH)
+    signs(ODD, out)
+    assert np.signbit(out[1:WIDTH]).tolist() == [False, True, True]
+    assert out[WIDTH + 1:].tolist() == [-math.inf, math.inf, 2.0]
+
+
+@pytest.mark.parametrize(('a', 'all_are'), [
+    ([1.0, 2.0, -3.0, 0.0], True), ([1.0, 5.1, 0.0, 0.0], False), ([math.nan] * 4, False),
+    ([-math.inf, 0.0, math.nan, 0.0], False)])
+def test_a_limit_is_kept_by_all_lanes_or_not_and_never_by_what_is_no_number(a, all_are):
+    out = np.zeros(WIDTH)
+    assert limits(np.array(a), np.full(WIDTH, 5.0), out) == all_are
+    assert out.tolist() == [2.0 if x <= 5.0 else 0.0 for x in a]
+
+
+def test_lanes_come_from_and_go_to_places_of_their_own():
+    values, out = np.arange(20.0), np.zeros(20)
+    places = np.array([3, 0, 11, 7, 9, 1, 17, 5])
+    moved(values, places, out)
+    assert out[[10, 2, 18, 6]].tolist() == [5.0, 2.0, 13.0, 9.0]
+    assert np.count_nonzero(out) == 4
