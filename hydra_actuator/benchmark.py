@@ -16,11 +16,16 @@ import time
 from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.core.compilation import kernel
 from hydra_actuator.core.line import sweep_domains
+from hydra_actuator.offline import Stretch
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.parameters.options import EVERYTHING, OPTIONS
+from hydra_actuator.side_by_side import SideBySide, simulate_side_by_side
+from hydra_actuator.signals import Sine
+from hydra_actuator.simulate import simulate
 import numpy as np
 
 PIECE = 5              # ticks in one timed piece
+RUN = 1000             # ticks of a timed run
 FREQUENCY = 50.0       # [Hz] of the full-stroke sine
 WARM_UP = 0.05         # [s]
 
@@ -107,6 +112,57 @@ def measure_options(parameters: Parameters | None = None, duration: float = 1.0,
             drive(actuator, PIECE)
             steps = PIECE * actuator.steps_per_period
             times[name][k] = (time.thread_time() - began) / steps
+        if progress is not None:
+            progress((k + 1) / pieces)
+    return times
+
+
+def measure_together(duration: float = 1.0,
+                     progress: Callable[[float], None] | None = None) -> dict[str, np.ndarray]:
+    """
+    Return processor times of one actuator's step [s], shape (pieces,), alone and in fours.
+
+    Four of the paper's model with masses of their own, on the drive of `measure_speed`, `duration`
+    [s] each: 'solver' advances one period per call, 'run' is `simulate` that keeps its rows in
+    memory. Alone and in fours are timed in turn.
+    """
+    parameters = [Parameters().replace({'tank.pressure': 0.0, 'cylinder.mass': mass})
+                  for mass in (7.0, 9.0, 11.0, 13.0)]
+    apart, at_once = ([Actuator(p) for p in parameters] for _ in range(2))
+    together = SideBySide(at_once)
+    steps, step_time = apart[0].steps_per_period, apart[0].step_time
+    command = Sine(FREQUENCY)
+
+    def stretch(actuator):
+        times = actuator.time + np.arange(1, steps + 1) * step_time
+        return Stretch((times, command(times), True), steps)
+
+    def solve_apart():
+        for actuator in apart:
+            for _ in range(PIECE):
+                actuator.follow(*stretch(actuator))
+
+    def solve_together():
+        for _ in range(PIECE):
+            together.follow([stretch(actuator) for actuator in at_once])
+
+    def run_apart():
+        for p in parameters:
+            simulate(p, command, span)
+
+    def run_together():
+        simulate_side_by_side(parameters, command, span)
+
+    periods = RUN
+    span = periods * apart[0].period
+    works = {'solver, alone': (solve_apart, PIECE),
+             'solver, four at once': (solve_together, PIECE), 'run, alone': (run_apart, periods),
+             'run, four at once': (run_together, periods)}
+    pieces = max(1, math.ceil(duration / span))
+    times = {name: np.empty(pieces) for name in works}
+    for k in range(pieces):
+        for name, (work, count) in works.items():
+            times[name][k] = processor_time(work) / (len(parameters) * count * steps)
         if progress is not None:
             progress((k + 1) / pieces)
     return times

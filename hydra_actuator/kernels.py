@@ -8,7 +8,7 @@ gets a manifest of checksums, and is put in place whole by one rename; a directo
 not match their manifest is thrown away. Without a writable place the kernels are compiled anew.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, ExitStack
 import hashlib
 import json
@@ -22,13 +22,14 @@ import time
 import hydra_actuator.core
 from hydra_actuator.core.advance import advance
 from hydra_actuator.core.observe import observe, read_field
+from hydra_actuator.core.together.advance import advance_together
 import llvmlite
 import llvmlite.binding
 import numba
 from numba.core.caching import NullCache
 import numpy as np
 
-KERNELS = (advance, observe, read_field)
+KERNELS = (advance, observe, read_field, advance_together)
 MANIFEST = 'manifest.json'
 MOST_KEPT = 24
 UNFINISHED = 'new-'
@@ -51,6 +52,29 @@ def warm_kernels(passes: int, plain: bool = True) -> Iterator[None]:
         for members, key in _groups(passes, plain):
             stack.enter_context(warm(members, key))
         yield
+
+
+@contextmanager
+def warm_together(passes: int) -> Iterator[None]:
+    """Do as `warm_kernels` for `advance_together`, which the caller calls once inside."""
+    with warm((advance_together,), cache_key('together', passes)):
+        yield
+
+
+def has_together(passes: int) -> bool:
+    """Return whether `advance_together` would come from memory or disk."""
+    key = cache_key('together', passes)
+    return key in _at_hand or is_intact(cache_root() / key)
+
+
+def specialised(kernel: Callable, arguments: tuple) -> Callable:
+    """
+    Return what a kernel that was called with such arguments compiled for their types.
+
+    It asks no argument for its type, which for tuples of records takes as long as many steps;
+    arguments of other types are not noticed.
+    """
+    return kernel.overloads[tuple(map(kernel.typeof_pyval, arguments))].entry_point
 
 
 def cache_keys(passes: int, plain: bool = True) -> list[str]:
@@ -110,9 +134,9 @@ def cache_root() -> Path:
 
 
 def digest_of_sources(folder: Path) -> str:
-    """Return a hash of the sources in a folder: their places, times and contents."""
+    """Return a hash of the sources in a folder and below: their places, times and contents."""
     digest = hashlib.sha256()
-    for source in sorted(folder.glob('*.py')):
+    for source in sorted(folder.rglob('*.py')):
         digest.update(f'{source} {source.stat().st_mtime_ns}\n'.encode())
         digest.update(source.read_bytes())
     return digest.hexdigest()

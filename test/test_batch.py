@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Many runs at once are each what they are alone, to the last bit."""
 
-from hydra_actuator.batch import read_batch
+from hydra_actuator import batch as batch_module
+from hydra_actuator.batch import read_batch, simulate_batch
 from hydra_actuator.cli.main import main
 from hydra_actuator.errors import InputError
 from hydra_actuator.parameters import load_parameters
@@ -55,3 +56,37 @@ def test_a_batch_that_cannot_be_run_is_refused_by_its_line(tmp_path, text, messa
     with pytest.raises(InputError) as refused:
         read_batch(batch(tmp_path, text))
     assert message in str(refused.value)
+
+
+def test_runs_go_in_fours_where_that_leaves_every_process_some(monkeypatch):
+    runs = [batch_module.Run(f'run_{k}', load_parameters(overrides={'cylinder.mass': 5.0 + k}))
+            for k in range(9)]
+    ready = []
+    monkeypatch.setattr(batch_module, 'ready_together', ready.append)
+    monkeypatch.setattr(batch_module, 'has_together', lambda passes: False)
+
+    def sizes(count, duration, workers):
+        return [len(members) for members in batch_module._groups(runs[:count], duration, workers)]
+    assert sizes(9, 1000.0, 2) == [4, 4, 1]
+    assert len(ready) == 1 and len(ready[0]) == 4
+    # one process would have none; the kernel would take longer than it saves
+    assert sizes(7, 1000.0, 2) == [1] * 7
+    assert sizes(9, 1.0, 2) == [1] * 9
+    monkeypatch.setattr(batch_module, 'has_together', lambda passes: True)
+    assert sizes(9, 1.0, 2) == [4, 4, 1]
+
+
+def test_a_batch_in_fours_is_the_same_as_one_by_one(tmp_path, monkeypatch):
+    runs = [batch_module.Run(f'run_{k}', load_parameters(overrides={
+        'cylinder.mass': 5.0 + k, 'solver.max_mach': 0.001 if k == 2 else 0.025}))
+        for k in range(5)]
+    drive = (Sine(50.0), 0.02, None)
+    told = simulate_batch(runs, drive, tmp_path / 'alone', 1)
+    monkeypatch.setattr(batch_module, 'WORTH', 0.0)
+    shares = []
+    assert simulate_batch(runs, drive, tmp_path / 'fours', 1, shares.append) == told
+    assert shares == [0.8, 1.0]
+    assert told['run_2'].startswith('|u|/c') and not told['run_3']
+    for run in runs:
+        one, other = (load_recording(tmp_path / how / run.name) for how in ('alone', 'fours'))
+        assert np.array_equal(one.rows, other.rows, equal_nan=True)

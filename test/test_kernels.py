@@ -168,12 +168,25 @@ def core_elsewhere(tmp_path) -> Path:
 def test_any_changed_or_added_source_changes_what_the_key_is_made_of(core_elsewhere):
     digests = [kernels.digest_of_sources(core_elsewhere)]
     assert kernels.digest_of_sources(core_elsewhere) == digests[0]
-    for source in sorted(core_elsewhere.glob('*.py')):
+    for source in sorted(core_elsewhere.rglob('*.py')):
         source.write_text(source.read_text() + '\n')
         digests.append(kernels.digest_of_sources(core_elsewhere))
     (core_elsewhere / 'new.py').write_text('')
     digests.append(kernels.digest_of_sources(core_elsewhere))
     assert len(set(digests)) == len(digests) > 10
+
+
+def test_a_specialised_kernel_does_what_the_kernel_does():
+    actuator, other = Actuator(), Actuator()
+
+    def arguments(one):
+        model, state, passes, schedule, inputs, steps = one.solver[:6]
+        return model, state, passes, schedule, inputs, 20, steps
+    direct = kernels.specialised(kernels.advance, arguments(actuator))
+    assert direct(*arguments(actuator)) == kernels.advance(*arguments(other))
+    assert actuator.time == other.time == 20 * actuator.step_time
+    with pytest.raises(KeyError):
+        kernels.specialised(kernels.advance, (1, 2, 3))
 
 
 def test_sources_and_passes_are_in_the_key(monkeypatch):

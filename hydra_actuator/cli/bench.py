@@ -26,6 +26,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--real-time', action='store_true',
                         help='lateness of a node alone, flooded and beside a busy core, and how '
                              'soon it answers, --duration seconds each, over DDS')
+    parser.add_argument('--batch', action='store_true',
+                        help='what a step of an actuator takes alone, and when four advance at '
+                             'once on the same core, with the same bits')
     parser.add_argument('--growth', nargs='?', const='', metavar='PICTURE.png',
                         help='how cost grows with cells, simulated time, actuators, threads and '
                              'workers; drawn into a picture if one is named')
@@ -60,6 +63,8 @@ def run(arguments: argparse.Namespace) -> int:
         return _peers()
     if arguments.growth is not None:
         return _growth(arguments.growth)
+    if arguments.batch:
+        return _batch(arguments.duration)
     if arguments.nodes is not None:
         return bench_ros.print_nodes(arguments)
     if arguments.real_time:
@@ -156,6 +161,20 @@ def _options(parameters, duration: float) -> int:
     for name, column in times.items():
         ratio = statistics.median(column / plain)
         print(f'{name:<32}{statistics.median(column) * 1e6:20.2f}{ratio:22.2f}')
+    return 0
+
+
+def _batch(duration: float) -> int:
+    """Print what a step takes alone and in fours."""
+    from hydra_actuator.benchmark import measure_together
+    with ProgressBar('bench') as progress:
+        times = measure_together(duration, progress)
+    print(f'{"step of one actuator [us]":<32}{"fastest":>10}{"median":>10}')
+    for name, column in times.items():
+        print(f'{name:<32}{min(column) * 1e6:10.3f}{statistics.median(column) * 1e6:10.3f}')
+    for kind in ('solver', 'run'):
+        ratio = statistics.median(times[f'{kind}, alone'] / times[f'{kind}, four at once'])
+        print(f'{kind}: {ratio:.2f} times as many steps by a core')
     return 0
 
 
