@@ -26,7 +26,15 @@ import math
 
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.fluid import compression_series, relative_compression
-from hydra_actuator.core.lanes import at_least, at_most, load, store, where_positive, WIDTH
+from hydra_actuator.core.lanes import (
+    all_at_most,
+    at_least,
+    at_most,
+    load,
+    store,
+    where_positive,
+    WIDTH,
+)
 
 # Most rounds of `gas_balance` inside a line, where two leave 3e-9 of p* at a jump of 1 m/s in one
 # step and 2e-13 at 0.1 m/s, and at ends, where the laws of the boundaries hold to 1e-10.
@@ -80,7 +88,7 @@ def gas_balance(waves, strength, floor, oil, rounds):
         above = linear >= 0.0
         volume = (2.0 * strength if above else root) / (root + 1e-300 if above else steep)
         mu = free + (volume - held)
-        # the few ends may stop at once; nodes go on together
+        # the few ends may stop at once; nodes stop together
         if rounds == ROUNDS_AT_END and abs(mu - about) * slowness <= STRAIGHT:
             break
     return mu, strength / (volume + 1e-300)
@@ -88,17 +96,24 @@ def gas_balance(waves, strength, floor, oil, rounds):
 
 @formula
 def balance_in_lanes(waves, strength, floor, oil):
-    """Return what `gas_balance` does in ROUNDS_INSIDE rounds, of WIDTH nodes with gas."""
+    """
+    Return what `gas_balance` does in ROUNDS_INSIDE rounds, of WIDTH nodes with gas.
+
+    Most of the time the first leaves nothing to do for any of them.
+    """
     free, held = waves
     slowness, bulk_modulus = oil
     mu, volume = free, held
     deepest, stiffest = -floor / (bulk_modulus * slowness), STIFFEST / slowness
+    straight = STRAIGHT / slowness
     for _ in range(ROUNDS_INSIDE):
         about = at_most(at_least(mu, deepest), stiffest)
         steep, linear, root = quadratic(about, waves, strength, floor, oil)
         volume = (where_positive(linear, 2.0 * strength, root)
                   / where_positive(linear, root, steep))
         mu = free + (volume - held)
+        if all_at_most(abs(mu - about), straight):
+            break
     return mu, strength / volume
 
 

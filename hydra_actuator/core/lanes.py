@@ -176,12 +176,13 @@ def where_at_most(typing_context, lanes, limit, then, otherwise):
 
 @intrinsic
 def all_at_most(typing_context, lanes, limit):
-    """Return whether every lane is at most that of the limit; no NaN is."""
+    """Return whether every lane is at most the limit, a float or lanes; no NaN is."""
     def generate(context, builder, signed, arguments):
-        beyond = builder.fcmp_unordered('>', arguments[0], arguments[1])
+        most = arguments[1] if limit is LANES else _in_all_lanes(builder, arguments[1])
+        beyond = builder.fcmp_unordered('>', arguments[0], most)
         bits = builder.bitcast(beyond, ir.IntType(WIDTH))
         return builder.icmp_unsigned('==', bits, ir.Constant(ir.IntType(WIDTH), 0))
-    return types.boolean(LANES, LANES), generate
+    return types.boolean(LANES, limit), generate
 
 
 @intrinsic

@@ -8,6 +8,7 @@ from hydra_actuator.core.cavity import (
     gas_balance,
     ROUNDS_AT_END,
     ROUNDS_INSIDE,
+    STRAIGHT,
 )
 from hydra_actuator.core.compilation import kernel
 from hydra_actuator.core.lanes import WIDTH
@@ -65,6 +66,29 @@ def test_nodes_side_by_side_balance_as_each_alone():
         assert state.star[node] == pytest.approx(star, rel=1e-9)
         assert state.new_p[node] == pytest.approx(2.0 * mu - q, rel=1e-9, abs=1e-9)
         assert state.new_q[node] == pytest.approx(2.0 * mu - p, rel=1e-9, abs=1e-9)
+
+
+def test_nodes_that_stop_after_one_round_are_those_of_all_rounds():
+    chain, chance = line(1e-3, 1e6, 64, 0.975), np.random.default_rng(5)
+    model, state = chain.model, chain.state
+    inside = slice(model.start[0] + 1, model.start[0] + state.last[0])
+    star = 10.0 ** chance.uniform(4.0, 7.6, 63)
+    oil = float(model.slowness[0]), float(model.bulk_modulus[0])
+    # what the gas may take up for the oil's pressure to be a straight line, and some that may not
+    way = STRAIGHT / oil[0] * chance.choice([-0.9, 0.5, 0.1, 1.5], 63)
+    strength = state.strength[inside]
+    mu = SPEED * np.log1p((star - model.floor) / MODULUS)
+    state.new_p[inside] = state.new_q[inside] = mu + way * (1.0 + star ** 2 / (
+        strength * MODULUS / SPEED))
+    state.star[inside] = star
+    waves = 0.5 * (state.new_p + state.new_q)[inside], strength / star
+    fill(model, state)
+    for k, node in enumerate(range(inside.start, inside.stop)):
+        full, pressure = gas_balance((float(waves[0][k]), float(waves[1][k])), float(strength[k]),
+                                     model.floor, oil, 6)
+        assert state.star[node] == pytest.approx(pressure, rel=1e-11)
+        assert 0.5 * (state.new_p + state.new_q)[node] == pytest.approx(
+            2.0 * full - waves[0][k], rel=1e-12, abs=1e-12)
 
 
 @pytest.mark.parametrize('cells', range(2, 2 * WIDTH + 2))

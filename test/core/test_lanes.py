@@ -82,6 +82,11 @@ def moved(values, places, out):
 
 
 @kernel
+def are_at_most(a, limit):
+    return all_at_most(load(a, 0), limit)
+
+
+@kernel
 def interpolated(table, start, places, out):
     low, high, rest = look_up(table, start, load(places, 0))
     store(out, 0, low + rest * (high - low))
@@ -100,6 +105,15 @@ def test_choices_put_what_is_no_number_at_the_limit():
     assert out[0].tolist() == [1.0, 0.0, 0.0, 1.0, -1.0, 1.0, -math.inf, 1.0]
     assert out[1].tolist() == [1.0, 1.0, 1.0, 1.0, 1.0, math.inf, 1.0, 2.0]
     assert out[2].tolist() == [0.0, 0.0, 0.0, 2.0, 0.0, 2.0, 0.0, 2.0]
+
+
+@pytest.mark.parametrize('lane', range(WIDTH))
+def test_one_lane_beyond_the_limit_is_enough(lane):
+    values = np.array([-math.inf, 0.0, -2.0, 1.0])[:WIDTH]
+    assert are_at_most(values, 1.0)
+    for other in (1.1, 3.0, math.inf, math.nan):
+        values[lane] = other
+        assert not are_at_most(values, 1.0)
 
 
 @pytest.mark.parametrize('start', [0, 5])
