@@ -66,8 +66,8 @@ ROOMS = {
         {'numpy', 'rthym_moc', 'tsnet', 'ptsnet', 'inp'},
     ),
     'sweep': (
-        {'sweep', 'actuator', 'one_compiler', 'signals', 'interruption', 'parameters', 'response',
-         'analysis', 'hydra_actuator'},
+        {'sweep', 'actuator', 'offline', 'one_compiler', 'signals', 'interruption', 'parameters',
+         'response', 'analysis', 'hydra_actuator'},
         {'numpy', 'scipy', 'dask', 'distributed', 'pyarrow', 'xarray', 'SALib'},
     ),
     'testing': (
@@ -143,7 +143,7 @@ def test_arrows_point_one_way(path):
 def test_core_imports_only_numpy_numba_math_and_core(path):
     roots = {name.split('.')[0] for name in imported(path)}
     assert roots <= {'numpy', 'numba', 'llvmlite', 'math', 'collections', 'dataclasses',
-                     'hashlib', 'operator', 'typing', 'hydra_actuator'}
+                     'functools', 'hashlib', 'operator', 'typing', 'hydra_actuator'}
 
 
 @pytest.mark.parametrize('path', WITHOUT_ROS, ids=label)

@@ -9,6 +9,7 @@ compiler may keep what it has read from it; what the arrays hold may change.
 """
 
 from dataclasses import dataclass, fields
+from functools import lru_cache
 import hashlib
 import operator
 
@@ -35,6 +36,11 @@ class HandleType(types.Type):
         super().__init__(f'{name}_{told}')
 
 
+@lru_cache
+def _handle_type(name: str, places: tuple) -> HandleType:
+    return HandleType(name, dict(places))
+
+
 @dataclass(frozen=True, eq=False)
 class Handle:
     """
@@ -46,14 +52,15 @@ class Handle:
 
     def __post_init__(self) -> None:
         """Write the table."""
-        layout, words = {}, []
+        places, words = [], []
         for field in fields(self):
             value = getattr(self, field.name)
-            layout[field.name] = (len(words), _type_of(value))
+            places.append((field.name, (len(words), _type_of(value))))
             words += _words(value)
         object.__setattr__(self, '_table', np.array(words, np.int64))
         object.__setattr__(self, '_address', self._table.ctypes.data)
-        object.__setattr__(self, '_numba_type_', HandleType(type(self).__name__, layout))
+        object.__setattr__(
+            self, '_numba_type_', _handle_type(type(self).__name__, tuple(places)))
 
     def _tie(self, name: str, other: 'Handle') -> None:
         """Let a field lead to another record, for good."""
@@ -89,9 +96,15 @@ def _type_of(value: object) -> types.Type | None:
         return types.UniTuple(types.intp, len(value))
     if isinstance(value, float):
         return types.float64
-    found = typeof(value)
-    if isinstance(found, types.Array) and found.ndim == 1 and isinstance(
-            found.dtype, types.Number):
+    if isinstance(value, np.ndarray):
+        return _array_type(value.dtype, value.ndim)
+    return typeof(value)
+
+
+@lru_cache
+def _array_type(dtype: np.dtype, dimensions: int) -> types.Array:
+    found = typeof(np.zeros((0,) * dimensions, dtype))
+    if dimensions == 1 and isinstance(found.dtype, types.Number):
         return HandleArray(found.dtype)
     return found
 
