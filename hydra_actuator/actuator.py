@@ -11,6 +11,7 @@ import math
 
 from hydra_actuator.actuator_state import ActuatorState, state_of
 from hydra_actuator.assembly import (
+    all_inputs,
     INPUTS,
     LOAD_FORCE,
     set_supply_pressure,
@@ -26,7 +27,7 @@ from hydra_actuator.faults import Faults
 from hydra_actuator.faults.faults import Change
 from hydra_actuator.field import field_labels, field_positions
 from hydra_actuator.geometry import section_positions, sections
-from hydra_actuator.kernels import warm_kernels
+from hydra_actuator.kernels import ByModel, warm_kernels
 from hydra_actuator.limits import broken_limit, SolverError
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.plant_faults import apply_plant_faults, set_air, void_fractions
@@ -63,6 +64,7 @@ class Actuator:
         self._table = np.zeros((1, INPUTS))
         self._inputs = np.zeros(INPUTS)
         self._extremes = np.zeros(1, EXTREMES)
+        self._by_model = ByModel(advance)
         self.reset()
         self.for_each_model(self._warm)
         self.faults.air_may_come = p['fluid.cavitation'] or self.faults.enabled
@@ -159,12 +161,7 @@ class Actuator:
 
     def schedule_of(self, schedule: tuple[np.ndarray, np.ndarray, bool]) -> tuple:
         """Return a schedule with all inputs, from the row in force now on; see `follow`."""
-        times, commands, hold = schedule
-        first = max(0, int(np.searchsorted(times, self.time, side='right')) - 1)
-        table = np.empty((len(times) - first, INPUTS))
-        table[:, :TANK_PRESSURE] = commands[first:]
-        table[:, TANK_PRESSURE] = self._table[0, TANK_PRESSURE]
-        return np.ascontiguousarray(times[first:]), table, hold
+        return all_inputs(schedule, self.time, self._table[0, TANK_PRESSURE])
 
     def advance(self, duration: float, spool: float | tuple[float, float] | None = None,
                 load_force: float | None = None) -> ActuatorState:
@@ -267,8 +264,8 @@ class Actuator:
         return code
 
     def _advance(self, schedule: tuple, steps: int) -> int:
-        return advance(self._model, self._state, self._passes, schedule, self._inputs, steps,
-                       self.steps_per_period)
+        return self._by_model(self._model, self._state, self._passes, schedule, self._inputs,
+                              steps, self.steps_per_period)
 
     @property
     def _fault_time(self) -> float:

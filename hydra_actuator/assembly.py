@@ -80,6 +80,19 @@ def assemble(parameters: Parameters) -> tuple[Model, State]:
     return model, state
 
 
+def all_inputs(schedule: tuple[np.ndarray, np.ndarray, bool], time: float,
+               tank_pressure: float) -> tuple[np.ndarray, np.ndarray, bool]:
+    """Return a schedule of commands (T, 3) with the tank's pressure [Pa], from a time [s] on."""
+    times, commands, hold = schedule
+    first = 0
+    if len(times) and times[0] <= time:
+        first = int(np.searchsorted(times, time, side='right')) - 1
+    table = np.empty((len(times) - first, INPUTS))
+    table[:, :TANK_PRESSURE] = commands[first:]
+    table[:, TANK_PRESSURE] = tank_pressure
+    return np.ascontiguousarray(times[first:], float), table, bool(hold)
+
+
 def _line_area(p: Parameters, name: str) -> float:
     return 0.25 * math.pi * p[f'{name}.diameter'] ** 2
 

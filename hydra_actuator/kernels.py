@@ -22,6 +22,7 @@ import time
 import hydra_actuator.core
 from hydra_actuator.core.advance import advance
 from hydra_actuator.core.observe import observe, read_field
+from hydra_actuator.core.records import Model
 from hydra_actuator.core.together.advance import advance_together
 import llvmlite
 import llvmlite.binding
@@ -75,6 +76,23 @@ def specialised(kernel: Callable, arguments: tuple) -> Callable:
     arguments of other types are not noticed.
     """
     return kernel.overloads[tuple(map(kernel.typeof_pyval, arguments))].entry_point
+
+
+class ByModel:
+    """A kernel for models of one type or another; all else keeps its type from call to call."""
+
+    def __init__(self, kernel: Callable) -> None:
+        """Take a kernel whose first argument is a model."""
+        self._kernel, self._known = kernel, {}
+
+    def __call__(self, model: Model, *others: object) -> object:
+        """Call the kernel, without asking for types of which one is known."""
+        known = self._known.get(model._numba_type_)
+        if known is not None:
+            return known(model, *others)
+        result = self._kernel(model, *others)
+        self._known[model._numba_type_] = specialised(self._kernel, (model, *others))
+        return result
 
 
 def cache_keys(passes: int, plain: bool = True) -> list[str]:

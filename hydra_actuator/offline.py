@@ -71,6 +71,31 @@ class Stretch(NamedTuple):
     steps: int
 
 
+class Ahead:
+    """Commands of the steps of a run, evaluated for many steps at once."""
+
+    def __init__(self, command: Signal, step_time: float, last_step: int) -> None:
+        """Take a command that gives (T, 3) for times (T,) [s], and the run's last step."""
+        self._command, self._step_time, self._last = command, step_time, last_step
+        self._first, self._times, self._commands = 0, np.empty(0), np.empty((0, 3))
+
+    def between(self, step: int, until: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return times [s] and commands of the steps after `step` up to `until`."""
+        if until > self._first + len(self._times):
+            try:
+                self._evaluate(step, min(self._last, max(until, step + AHEAD)))
+            except InputError:
+                # further on; what comes before it is still to be done
+                self._evaluate(step, until)
+        part = slice(step - self._first, until - self._first)
+        return self._times[part], self._commands[part]
+
+    def _evaluate(self, step: int, until: int) -> None:
+        times = np.arange(step + 1, until + 1) * self._step_time
+        self._commands = self._command(times)
+        self._first, self._times = step, times
+
+
 def next_stretch(stretches: Generator[Stretch, int, None],
                  code: int | None = None) -> Stretch | None:
     """Give a run the status code of its last stretch; return the next one, None at the end."""
@@ -96,7 +121,6 @@ class Run:
                  p['recording.field_rate'])
         self._clocks = [OutputClock(one, actuator.step_time) for one in rates]
         self._now = self._commands(np.zeros(1))[0].tolist()
-        self._ahead = (0, np.empty(0), np.empty((0, 3)))
         self.step = 0
         actuator.row[Channels.LOAD_FORCE] = self._now[2]
 
@@ -106,34 +130,17 @@ class Run:
 
         Raises SolverError for a code that is not sound, InputError for a command out of range.
         """
+        ahead = Ahead(self._commands, self._actuator.step_time, last_step)
         self._output(sink)
         while self.step < last_step:
             until = min(last_step, *(clock.next_step for clock in self._clocks))
-            times, commands = self._commands_until(until, last_step)
+            times, commands = ahead.between(self.step, until)
             code = yield Stretch((times, commands, True), until - self.step)
             if code:
                 raise SolverError(self._actuator.status_message(code))
             self._now = commands[-1].tolist()
             self.step = until
             self._output(sink)
-
-    def _commands_until(self, until: int, last_step: int) -> tuple[np.ndarray, np.ndarray]:
-        """Return times and commands of the steps from the next one to `until`."""
-        first, times, commands = self._ahead
-        if until > first + len(times):
-            first = self.step
-            try:
-                times, commands = self._evaluate(min(last_step, max(until, first + AHEAD)))
-            except InputError:
-                # further on; what comes before it is still to be done
-                times, commands = self._evaluate(until)
-            self._ahead = (first, times, commands)
-        part = slice(self.step - first, until - first)
-        return times[part], commands[part]
-
-    def _evaluate(self, until: int) -> tuple[np.ndarray, np.ndarray]:
-        times = np.arange(self.step + 1, until + 1) * self._actuator.step_time
-        return times, self._commands(times)
 
     def _commands(self, times: np.ndarray) -> np.ndarray:
         commands = np.asarray(self._command(times), float)

@@ -10,6 +10,7 @@ import sys
 from hydra_actuator import kernels
 from hydra_actuator.actuator import Actuator
 import hydra_actuator.core
+from hydra_actuator.parameters import Parameters
 import pytest
 
 REPOSITORY = Path(__file__).parents[1]
@@ -187,6 +188,16 @@ def test_a_specialised_kernel_does_what_the_kernel_does():
     assert actuator.time == other.time == 20 * actuator.step_time
     with pytest.raises(KeyError):
         kernels.specialised(kernels.advance, (1, 2, 3))
+
+
+def test_a_kernel_by_model_compiles_once_for_each_kind_of_model():
+    plain, boiling = Actuator(), Actuator(Parameters({'fluid.cavitation': True}))
+    by_model = kernels.ByModel(kernels.advance)
+    for actuator in (plain, boiling, plain, boiling):
+        model, state, passes, schedule, inputs, steps = actuator.solver[:6]
+        assert by_model(model, state, passes, schedule, inputs, 3, steps) == 0
+    assert plain.time == 6 * plain.step_time and boiling.time == 6 * boiling.step_time
+    assert len(by_model._known) == 2
 
 
 def test_sources_and_passes_are_in_the_key(monkeypatch):

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from hydra_actuator.actuator import Actuator, SolverError
 from hydra_actuator.channels import Channels
+from hydra_actuator.offline import Ahead
 from hydra_actuator.one_compiler import compile_once
 from hydra_actuator.parameters import ParameterError, Parameters
 from hydra_actuator.signals import Signal
@@ -71,13 +72,13 @@ def _simulated(actuator: Actuator, drive: Drive) -> dict[str, float]:
     first = drive.start / dt - 1e-6
     field = np.empty((len(actuator.field_labels), 2), np.float32)
     rows, highest, step = [], -math.inf, 0
+    ahead = Ahead(drive.signal, dt, steps)
     while step < steps:
-        count = min(every, steps - step)
-        times = np.arange(step + 1, step + count + 1) * dt
-        code = actuator.follow((times, drive.signal(times), True), count)
+        until = min(step + every, steps)
+        code = actuator.follow((*ahead.between(step, until), True), until - step)
         if code:
             raise SolverError(actuator.status_message(code))
-        step += count
+        step = until
         if step >= first:
             actuator.read_field(field)
             highest = max(highest, float(np.fmax.reduce(field[:, 0])))
