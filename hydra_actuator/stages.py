@@ -21,6 +21,7 @@ from hydra_actuator.core.drag import remember_drag, sweep_with_drag
 from hydra_actuator.core.junctions import solve_junction
 from hydra_actuator.core.line import sweep_domains
 from hydra_actuator.core.observe import find_limits, runs_away
+from hydra_actuator.core.orifices import solve_open_orifices
 from hydra_actuator.core.step import (
     arrive,
     continue_beyond_ends,
@@ -33,11 +34,13 @@ import numpy as np
 
 REPEATS, CALLS = 500, 100     # of a stage, and of a call from Python, in one timed piece
 JUNCTIONS = ('pump', 'valve', 'port C|D', 'piston', 'port G|H', 'tank')
+# Of these, where hydra_actuator.core.orifices solves them at once.
+TOGETHER = ('valve', 'port C|D', 'port G|H')
 (SPOOLS, GHOSTS, SWEEP, EXTRAPOLATION, ARRIVAL, LEVEL, CAVITIES, MEMORY, LOWEST, ALARM,
- LIMITS, NOTHING) = range(12)
-FIRST_JUNCTION = 12
+ LIMITS, ORIFICES, NOTHING) = range(13)
+FIRST_JUNCTION = 13
 NAMES = ('spools', 'ghosts', 'sweep', 'extrapolation', 'arrival', 'new level', 'cavities',
-         'memory of friction', 'lowest pressure', 'alarm', 'limits', 'nothing',
+         'memory of friction', 'lowest pressure', 'alarm', 'limits', 'valve and ports', 'nothing',
          *(f'junction: {name}' for name in JUNCTIONS))
 
 
@@ -106,6 +109,14 @@ def do_part(model, state, passes, stage):
         state.fault[2] += runs_away(model, state)
     elif stage == LIMITS:
         find_limits(model, state)
+    elif stage == ORIFICES:
+        solve_open_orifices(model, state)
+
+
+@kernel
+def are_together(model, state):
+    """Return whether the valve's edges and the ports are solved at once."""
+    return solve_open_orifices(model, state)
 
 
 @kernel
@@ -165,6 +176,9 @@ def measure_stages(parameters: Parameters | None = None, pieces: int = 40) -> St
     times = {name: max(took - call, 0.0) for name, took in times.items()}
     times['new level'] -= times['cavities'] + times['memory of friction']
     times['limits'] /= LOOK_EVERY
+    together = are_together(model, copy.deepcopy(state))
+    for name in [f'junction: {name}' for name in TOGETHER] if together else ['valve and ports']:
+        del times[name]
     times['observation'] = float(np.median(others['observe']))
     times['calls from Python'] = float(np.median(others['call']))
     return Stages(times, *(float(np.median(others[key])) for key in ('step', 'bare', 'limit')))

@@ -9,6 +9,7 @@ from hydra_actuator.core.cavity import face_strength
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.end import End
 from hydra_actuator.core.orifice import solve_orifice
+from hydra_actuator.core.orifices import solve_open_orifices
 from hydra_actuator.core.piston import (
     face_pressures,
     force_on_piston,
@@ -46,6 +47,16 @@ def end_of(model, state, end):
     return End(
         state.end_wave[end], state.end_velocity[end], model.slowness[d], model.bulk_modulus[d],
         model.area[d], model.impedance[d], model.inverse_area[d], strength, held, model.floor)
+
+
+@formula
+def solve_junctions(model, state, inputs):
+    """Solve all junctions, four orifices at once where that can be done."""
+    together = solve_open_orifices(model, state)
+    for j in range(model.junctions.size):
+        kind = model.junctions[j].kind
+        if not (together and (kind == VALVE or kind == ORIFICE)):
+            solve_junction(model, state, j, inputs)
 
 
 @formula

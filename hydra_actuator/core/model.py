@@ -15,6 +15,7 @@ from hydra_actuator.core.gas import place_gas
 from hydra_actuator.core.lanes import WIDTH
 from hydra_actuator.core.line import GHOSTS, GHOSTS_BEYOND_FACE
 from hydra_actuator.core.oil import friction_constants, gas_constants, has_table, Oil
+from hydra_actuator.core.orifices import EDGES, orifice_arrays, port_coefficients
 from hydra_actuator.core.records import (
     CAVITY_COUNTS,
     JUNCTION,
@@ -87,8 +88,7 @@ def build_chain(oil: Oil, domains: list[Domain], junctions: list[Junction], mesh
     """
     count = len(domains)
     spacing = np.empty(count)
-    capacity = np.empty(count, np.int64)
-    last = np.empty(count, np.int64)
+    capacity, last = np.empty((2, count), np.int64)
     for d, domain in enumerate(domains):
         spacing[d], last[d], capacity[d] = _cells(domain, mesh)
     moving = np.array([int(domain.longest > 0.0) for domain in domains])
@@ -126,10 +126,11 @@ def build_chain(oil: Oil, domains: list[Domain], junctions: list[Junction], mesh
         node_slowness=(1.0 / wave_speed)[of_node],
         node_bulk_modulus=(oil.density * wave_speed ** 2)[of_node],
         junctions=_junction_records(junctions),
+        **orifice_arrays(junctions, oil.density, wave_speed, area),
         valve=records.get('valve', np.zeros(1, VALVE_PARAMETERS)),
         piston=records.get('piston', np.zeros(1, PISTON_PARAMETERS)),
         source=records.get('source', np.zeros(1, SOURCE_PARAMETERS)))
-    state = _empty_state(count, len(of_node))
+    state = _empty_state(count, len(of_node), port_coefficients(junctions))
     state.last[:] = last
     state.length[:] = state.old_length[:] = [domain.length for domain in domains]
     for d, domain in enumerate(domains):
@@ -200,7 +201,7 @@ def _junction_records(junctions: list[Junction]) -> np.ndarray:
     return records
 
 
-def _empty_state(domains: int, nodes: int) -> State:
+def _empty_state(domains: int, nodes: int, ports: list[float]) -> State:
     return State(
         wave_p=np.zeros(nodes), wave_q=np.zeros(nodes), new_p=np.zeros(nodes),
         new_q=np.zeros(nodes), last=np.zeros(domains, np.int64), length=np.zeros(domains),
@@ -215,6 +216,6 @@ def _empty_state(domains: int, nodes: int) -> State:
         lowest_star=np.full(nodes + domains, np.inf),
         was_open=np.zeros(nodes + domains, np.int64), cavities=np.zeros(1, CAVITY_COUNTS),
         mass=np.zeros(1, MASS_BALANCE),
-        spool=np.zeros(4), edge_coefficient=np.zeros(4),
+        spool=np.zeros(4), edge_coefficient=np.array([0.0] * EDGES + ports),
         valve_velocity=np.zeros(4), ring=np.zeros((6, 4)), piston=np.zeros(1, PISTON_STATE),
         oil_stored=np.zeros(2), step=np.zeros(1, np.int64), fault=np.zeros(3))

@@ -106,6 +106,10 @@ class Model(Handle):
     node_slowness: np.ndarray   # (N,) 1/c [s/m]
     node_bulk_modulus: np.ndarray  # (N,) [Pa]
     junctions: np.ndarray       # (J,) JUNCTION
+    orifice_ends: np.ndarray    # (16,) or (0,): see hydra_actuator.core.orifices
+    orifice_edges: np.ndarray   # (8,) or (0,)
+    orifice_constants: np.ndarray  # (80,) or (0,)
+    orifice_leakage: np.ndarray  # (4,) or (0,) [m^3/(s Pa)]
     valve: np.ndarray           # (1,) VALVE_PARAMETERS
     piston: np.ndarray          # (1,) PISTON_PARAMETERS
     source: np.ndarray          # (1,) SOURCE_PARAMETERS
@@ -143,7 +147,7 @@ class State(Handle):
     cavities: np.ndarray        # (1,) CAVITY_COUNTS
     mass: np.ndarray            # (1,) MASS_BALANCE
     spool: np.ndarray           # (4,) displacement, velocity of spool 1, of spool 2
-    edge_coefficient: np.ndarray  # (4,) K' of the valve's edges
+    edge_coefficient: np.ndarray  # (6,) K' of the valve's edges, of two ports
     valve_velocity: np.ndarray  # (4,) work: outflow at A, B, I, J
     ring: np.ndarray            # (6, 4) work of the valve; row 5 the edge flows [m^3/s]
     piston: np.ndarray          # (1,) PISTON_STATE

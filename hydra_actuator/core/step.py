@@ -13,7 +13,7 @@ from hydra_actuator.core.chamber import extend_to_face, renew_last_nodes, wave_a
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.drag import drag_at, remember_drag, sweep_with_drag
 from hydra_actuator.core.end import state_at
-from hydra_actuator.core.junctions import end_of, solve_junction
+from hydra_actuator.core.junctions import end_of, solve_junctions
 from hydra_actuator.core.line import arriving_wave, fill_ghost, sweep_domains
 from hydra_actuator.core.records import VALVE
 from hydra_actuator.core.valve import edge_coefficients, move_spool
@@ -38,8 +38,7 @@ def step(model, state, inputs, passes):
     extrapolate_ends(state)
     for k in range(max(1, len(passes) - 1)):
         arrive(model, state, mesh, (len(passes) == 1, k == 0))
-        for j in range(model.junctions.size):
-            solve_junction(model, state, j, inputs)
+        solve_junctions(model, state, inputs)
     take_new_level(model, state, passes)
     state.step[0] += 1
 
