@@ -17,6 +17,7 @@ import os
 from pathlib import Path
 import re
 import signal
+import threading
 from typing import NamedTuple
 
 from hydra_actuator.csv_files import read_csv
@@ -31,6 +32,8 @@ from hydra_actuator.signals import Signal
 # Simulated seconds of a batch from which on compiling the kernel for four at once is repaid: it
 # takes as long as it then saves, some 0.3 us of each of 134 000 steps of each second.
 WORTH = 1000.0
+# Of the batch that a process works for.
+_ended = threading.Event()
 _NAME = re.compile(r'[A-Za-z0-9][A-Za-z0-9._-]*')
 
 
@@ -81,14 +84,21 @@ def simulate_batch(runs: list[Run], drive: tuple[Signal, float, float | None], o
     count = min(workers or len(os.sched_getaffinity(0)), len(runs))
     groups = _groups(runs, drive[1], count)
     told: dict[str, str] = {}
-    with ProcessPoolExecutor(count, multiprocessing.get_context('spawn'), _ignore) as pool:
+    context = multiprocessing.get_context('spawn')
+    ended = context.Event()
+    with ProcessPoolExecutor(count, context, _begin, (ended,)) as pool:
         futures = [pool.submit(_some, members, drive, output) for members in groups]
         try:
             for future in as_completed(futures):
                 told.update(future.result())
                 progress(len(told) / len(runs))
         except BaseException:
+            # a process has work in its queue that cannot be cancelled, and who asked may have
+            # asked this one alone
+            ended.set()
             pool.shutdown(wait=False, cancel_futures=True)
+            for worker in multiprocessing.active_children():
+                os.kill(worker.pid, signal.SIGINT)
             raise
     return {run.name: told[run.name] for run in runs}
 
@@ -112,6 +122,13 @@ def _groups(runs: list[Run], duration: float, workers: int) -> list[list[Run]]:
     return sorted(groups, key=len, reverse=True)
 
 
+def _begin(ended: 'multiprocessing.synchronize.Event') -> None:
+    """Begin a process, which does nothing more once the batch has ended."""
+    global _ended
+    _ended = ended
+    _ignore()
+
+
 def _ignore() -> None:
     """Leave Ctrl-C alone while there is no run that it could end."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -122,6 +139,8 @@ def _some(runs: list[Run], drive: tuple, output: Path) -> dict[str, str]:
     command, duration, rate = drive
     signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
+        if _ended.is_set():
+            raise KeyboardInterrupt
         compile_once(runs[0].parameters)
         outcomes = simulate_side_by_side(
             [run.parameters for run in runs], command, duration,

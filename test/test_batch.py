@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Many runs at once are each what they are alone, to the last bit."""
 
+import signal
+import subprocess
+import sys
+import time
+
 from hydra_actuator import batch as batch_module
 from hydra_actuator.batch import read_batch, simulate_batch
 from hydra_actuator.cli.main import main
@@ -90,3 +95,19 @@ def test_a_batch_in_fours_is_the_same_as_one_by_one(tmp_path, monkeypatch):
     for run in runs:
         one, other = (load_recording(tmp_path / how / run.name) for how in ('alone', 'fours'))
         assert np.array_equal(one.rows, other.rows, equal_nan=True)
+
+
+def test_an_interrupt_ends_all_processes_soon_and_leaves_whole_recordings(tmp_path, small):
+    runs = batch(tmp_path, 'name,cylinder.mass\n' + ''.join(f'r{k},{5 + k}\n' for k in range(3)))
+    out = tmp_path / 'out'
+    process = subprocess.Popen(
+        [sys.executable, '-m', 'hydra_actuator', 'simulate', '--config', small, '--batch', runs,
+         '--sine', '50', '--duration', '100000', '-o', str(out)], stderr=subprocess.PIPE)
+    until = time.monotonic() + 100.0
+    while not list(out.glob('*/*.mcap')) and time.monotonic() < until:
+        time.sleep(0.1)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60.0)
+    assert process.returncode == 130
+    begun = list(out.iterdir())
+    assert begun and all(load_recording(one).finished for one in begun)
