@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Four actuators to a step are each what they are alone, to the last bit."""
 
+from campaign.draw import draw_set
+from hydra_actuator.actuator import Actuator
 from hydra_actuator.core.lanes import WIDTH
 from hydra_actuator.core.together.advance import advance_together
+from hydra_actuator.core.together.ensemble import fits
 from hydra_actuator.errors import InputError
 from hydra_actuator.limits import SolverError
-from hydra_actuator.parameters import Parameters
+from hydra_actuator.offline import Stretch
+from hydra_actuator.parameters import ParameterError, Parameters
+from hydra_actuator.parameters.table_hydraulics import LINES
 from hydra_actuator.recording.reader import load_recording
 from hydra_actuator.side_by_side import group, SideBySide, simulate_side_by_side
 from hydra_actuator.signals import Sine, Step
@@ -129,7 +134,6 @@ def test_an_actuator_too_short_for_the_lanes_runs_alone(calls):
 
 
 def test_the_kernel_leaves_all_as_it_was_where_it_gives_up():
-    from hydra_actuator.actuator import Actuator
     actuators = [Actuator(p) for p in sets([{}, {}, {}, {'solver.max_mach': 0.002}])]
     together = SideBySide(actuators)
     for actuator in actuators:
@@ -141,3 +145,58 @@ def test_the_kernel_leaves_all_as_it_was_where_it_gives_up():
         assert actuator.time == 0.0
         assert np.array_equal(actuator.solver.state.wave_p, waves)
     assert advance_together.nopython_signatures
+
+
+def drawn(number, cells):
+    """Return the actuator parameters of a random set that may go side by side, or None."""
+    values = draw_set(number, False) | {
+        'fluid.cavitation': False, 'valve.leakage': 0.0, 'solver.cells': cells,
+        'solver.interpolation': 'cubic'}
+    values |= {f'{line}.friction': 'constant' for line in LINES}
+    try:
+        parameters = Parameters(values)
+        actuator = Actuator(parameters)
+    except ParameterError:
+        return None
+    return parameters if actuator.steps_per_period < 400 and fits(actuator.solver.model) else None
+
+
+def differences(four, random, ticks):
+    """Advance four side by side and alone under held commands; return where they differ."""
+    at_once, apart = ([Actuator(p) for p in four] for _ in range(2))
+    together, differ = SideBySide(at_once), []
+    for tick in range(ticks):
+        stretches = []
+        for actuator in at_once:
+            steps = actuator.steps_per_period
+            commands = np.clip(random.normal(0.0, (0.5, 0.5, 0.0)), -1.0, 1.0)
+            commands[2] = random.normal(0.0, 2000.0)
+            stretches.append(Stretch((
+                actuator.time + np.arange(1, steps + 1) * actuator.step_time,
+                np.tile(commands, (steps, 1)), True), steps))
+        codes = together.follow(stretches)
+        for k, (one, other) in enumerate(zip(at_once, apart)):
+            if (other.follow(*stretches[k]) != codes[k]
+                    or not np.array_equal(one.row, other.row, equal_nan=True)):
+                differ.append((k, tick))
+        if any(codes):
+            return differ
+    return differ
+
+
+def fours(cells, first, last):
+    """Yield the sets of the numbers in fours."""
+    found = [p for p in (drawn(number, cells) for number in range(first, last)) if p is not None]
+    for k in range(0, len(found) - WIDTH + 1, WIDTH):
+        yield found[k:k + WIDTH]
+
+
+@pytest.mark.parametrize('last', [
+    pytest.param(150, id='sample'), pytest.param(6000, marks=pytest.mark.soak, id='all')])
+def test_random_actuators_are_what_they_are_alone_status_and_bits(last, calls):
+    random = np.random.default_rng(11)
+    groups = 0
+    for four in fours(200, 0, last):
+        assert differences(four, random, 10) == []
+        groups += 1
+    assert groups > last / 60 and sum(calls) > 3 * groups
