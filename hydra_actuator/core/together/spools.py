@@ -40,7 +40,7 @@ def move_spools_together(now, models):
 def conductances(now, edge, displacement):
     """Return K' of an edge in every lane, 0 where it overlaps."""
     beyond = displacement - element(now.overlap, edge)
-    nothing = 0.0 * element(now.overlap, edge)
+    nothing = 0.0 * abs(beyond)
     k = element(now.flow_gain, edge) * where_positive(beyond, beyond, nothing)
     return where_at_most(nothing + LEAST_CONDUCTANCE, k, k, nothing)
 

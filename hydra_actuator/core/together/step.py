@@ -204,6 +204,8 @@ def take_level(now, passes):
                 cells = int(now.work[WIDTH + lane])
                 holds = holds and LONG <= cells <= now.capacity[at + lane]
                 gained = max(gained, cells - now.last[at + lane])
+            # a face faster than sound uncovers nodes that no sweep has been to
+            holds = holds and gained <= 1
             if holds:
                 renew_nodes(now, d, gained, returned, passes)
                 for lane in range(WIDTH):
