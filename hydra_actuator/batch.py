@@ -10,8 +10,8 @@ of a batch file says how its run differs:
     heavy,20.0,0.0005
 """
 
-from collections.abc import Callable
-from concurrent.futures import as_completed, ProcessPoolExecutor
+from collections.abc import Callable, MutableSequence
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 import multiprocessing
 import os
 from pathlib import Path
@@ -32,8 +32,9 @@ from hydra_actuator.signals import Signal
 # Simulated seconds of a batch from which on compiling the kernel for four at once is repaid: it
 # takes as long as it then saves, some 0.3 us of each of 134 000 steps of each second.
 WORTH = 1000.0
-# Of the batch that a process works for.
-_ended = threading.Event()
+LOOK = 0.2              # [s] between looks at how far the processes are
+# Of the batch that a process works for: whether it has ended, runs done of each group.
+_ended, _shares = threading.Event(), []
 _NAME = re.compile(r'[A-Za-z0-9][A-Za-z0-9._-]*')
 
 
@@ -85,13 +86,17 @@ def simulate_batch(runs: list[Run], drive: tuple[Signal, float, float | None], o
     groups = _groups(runs, drive[1], count)
     told: dict[str, str] = {}
     context = multiprocessing.get_context('spawn')
-    ended = context.Event()
-    with ProcessPoolExecutor(count, context, _begin, (ended,)) as pool:
-        futures = [pool.submit(_some, members, drive, output) for members in groups]
+    ended, shares = context.Event(), context.Array('d', len(groups), lock=False)
+    with ProcessPoolExecutor(count, context, _begin, (ended, shares)) as pool:
+        under_way = {pool.submit(_some, number, members, drive, output): number
+                     for number, members in enumerate(groups)}
         try:
-            for future in as_completed(futures):
-                told.update(future.result())
-                progress(len(told) / len(runs))
+            while under_way:
+                for future in wait(under_way, LOOK, FIRST_COMPLETED).done:
+                    told.update(future.result())
+                    del under_way[future]
+                begun = sum(shares[number] for number in under_way.values())
+                progress((len(told) + begun) / len(runs))
         except BaseException:
             # a process has work in its queue that cannot be cancelled, and who asked may have
             # asked this one alone
@@ -122,10 +127,10 @@ def _groups(runs: list[Run], duration: float, workers: int) -> list[list[Run]]:
     return sorted(groups, key=len, reverse=True)
 
 
-def _begin(ended: 'multiprocessing.synchronize.Event') -> None:
-    """Begin a process, which does nothing more once the batch has ended."""
-    global _ended
-    _ended = ended
+def _begin(ended: 'multiprocessing.synchronize.Event', shares: MutableSequence[float]) -> None:
+    """Begin a process: it does nothing once the batch has ended, and tells how far it is."""
+    global _ended, _shares
+    _ended, _shares = ended, shares
     _ignore()
 
 
@@ -134,9 +139,13 @@ def _ignore() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def _some(runs: list[Run], drive: tuple, output: Path) -> dict[str, str]:
-    """Simulate one or more runs; return by name why a run failed, or ''."""
+def _some(number: int, runs: list[Run], drive: tuple, output: Path) -> dict[str, str]:
+    """Simulate group `number` of the batch; return by name why a run failed, or ''."""
     command, duration, rate = drive
+
+    def tell(share: float) -> None:
+        _shares[number] = share * len(runs)
+
     signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         if _ended.is_set():
@@ -144,7 +153,7 @@ def _some(runs: list[Run], drive: tuple, output: Path) -> dict[str, str]:
         compile_once(runs[0].parameters)
         outcomes = simulate_side_by_side(
             [run.parameters for run in runs], command, duration,
-            [output / run.name for run in runs], rate)
+            [output / run.name for run in runs], rate, tell)
     finally:
         _ignore()
     return {run.name: str(outcome) if isinstance(outcome, Exception) else ''
