@@ -21,9 +21,10 @@ opened - collapsed. Without gas all this is 0, and costs a step nothing.
 import math
 
 from hydra_actuator.core.cavity import face_strength
+from hydra_actuator.core.choices import at_most
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.fluid import pressure_of
-from hydra_actuator.core.lanes import at_most, load, store, WIDTH
+from hydra_actuator.core.lanes import load, store, WIDTH
 import numpy as np
 
 OPENS, CLOSES = 0.01, 0.02

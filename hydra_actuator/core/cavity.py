@@ -24,17 +24,10 @@ Neglected: growth of bubbles, solution and release of gas, vapour's own mass.
 
 import math
 
+from hydra_actuator.core.choices import all_at_most, at_least, at_most, where_positive
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.fluid import compression_series, relative_compression
-from hydra_actuator.core.lanes import (
-    all_at_most,
-    at_least,
-    at_most,
-    load,
-    store,
-    where_positive,
-    WIDTH,
-)
+from hydra_actuator.core.lanes import load, store, WIDTH
 
 # Most rounds of `gas_balance` inside a line, where two leave 3e-9 of p* at a jump of 1 m/s in one
 # step and 2e-13 at 0.1 m/s, and at ends, where the laws of the boundaries hold to 1e-10.

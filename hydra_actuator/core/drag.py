@@ -9,9 +9,10 @@ without any friction are swept plainly.
 
 import math
 
+from hydra_actuator.core.choices import at_most
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.friction import damping_at, LAST_PLACE, steady_drag
-from hydra_actuator.core.lanes import at_most, load, look_up, store, WIDTH
+from hydra_actuator.core.lanes import load, look_up, store, WIDTH
 from hydra_actuator.core.line import cubic, inner_nodes, sweep_domain
 
 

@@ -23,7 +23,7 @@ from numba.np.arrayobj import make_array
 
 WIDTH = 4
 
-_VECTOR = ir.VectorType(ir.DoubleType(), WIDTH)
+VECTOR = ir.VectorType(ir.DoubleType(), WIDTH)
 _OPERATIONS = (
     (operator.add, 'fadd'), (operator.iadd, 'fadd'), (operator.sub, 'fsub'),
     (operator.isub, 'fsub'), (operator.mul, 'fmul'), (operator.truediv, 'fdiv'))
@@ -43,11 +43,12 @@ LANES = _LanesType()
 class _LanesModel(PrimitiveModel):
 
     def __init__(self, manager, front_end_type) -> None:
-        super().__init__(manager, front_end_type, _VECTOR)
+        super().__init__(manager, front_end_type, VECTOR)
 
 
-def _in_all_lanes(builder, value):
-    nothing = ir.Constant(_VECTOR, ir.Undefined)
+def in_all_lanes(builder, value):
+    """Return, as code, a vector with a value in every lane."""
+    nothing = ir.Constant(VECTOR, ir.Undefined)
     index = ir.IntType(32)
     first = builder.insert_element(nothing, value, ir.Constant(index, 0))
     return builder.shuffle_vector(
@@ -62,7 +63,7 @@ def _define(operation, instruction) -> None:
         cases = [signature(LANES, *kind) for kind in kinds]
 
     def lower(context, builder, signed, arguments):
-        values = (value if kind is LANES else _in_all_lanes(builder, value)
+        values = (value if kind is LANES else in_all_lanes(builder, value)
                   for value, kind in zip(arguments, signed.args))
         return getattr(builder, instruction)(*values)
 
@@ -87,7 +88,7 @@ def _define_function(function, name) -> None:
 def _declared(module, name, operands=1):
     name = f'llvm.{name}.v{WIDTH}f64'
     known = module.globals.get(name)
-    return known or ir.Function(module, ir.FunctionType(_VECTOR, [_VECTOR] * operands), name)
+    return known or ir.Function(module, ir.FunctionType(VECTOR, [VECTOR] * operands), name)
 
 
 _define_function(abs, 'fabs')
@@ -117,7 +118,7 @@ def _copy_sign(context, builder, signed, arguments):
 def _place(context, builder, signed, arguments):
     array = make_array(signed.args[0])(context, builder, arguments[0])
     index = context.cast(builder, arguments[1], signed.args[1], types.intp)
-    return builder.bitcast(builder.gep(array.data, [index]), _VECTOR.as_pointer())
+    return builder.bitcast(builder.gep(array.data, [index]), VECTOR.as_pointer())
 
 
 @intrinsic
@@ -138,23 +139,13 @@ def store(typing_context, array, index, lanes):
 
 
 @intrinsic
-def where_positive(typing_context, lanes, then, otherwise):
-    """Return `then` in the lanes that are above 0, `otherwise` in the others and where NaN is."""
-    def generate(context, builder, signed, arguments):
-        zero = ir.Constant(_VECTOR, [0.0] * WIDTH)
-        above = builder.fcmp_ordered('>', arguments[0], zero)
-        return builder.select(above, arguments[1], arguments[2])
-    return LANES(LANES, LANES, LANES), generate
-
-
-@intrinsic
 def multiply_add(typing_context, a, b, c):
     """
     Return a b + c of floats or of lanes, rounded once where the processor can.
 
     Where both sides of a sum are products the compiler is free which to fuse; this says which.
     """
-    kind = _VECTOR if a is LANES else ir.DoubleType()
+    kind = VECTOR if a is LANES else ir.DoubleType()
 
     def generate(context, builder, signed, arguments):
         name = f'llvm.fmuladd.{f"v{WIDTH}f64" if a is LANES else "f64"}'
@@ -166,30 +157,10 @@ def multiply_add(typing_context, a, b, c):
 
 
 @intrinsic
-def where_at_most(typing_context, lanes, limit, then, otherwise):
-    """Return `then` in the lanes that are at most the limit, `otherwise` elsewhere and at NaN."""
-    def generate(context, builder, signed, arguments):
-        inside = builder.fcmp_ordered('<=', arguments[0], arguments[1])
-        return builder.select(inside, arguments[2], arguments[3])
-    return LANES(LANES, LANES, LANES, LANES), generate
-
-
-@intrinsic
-def all_at_most(typing_context, lanes, limit):
-    """Return whether every lane is at most the limit, a float or lanes; no NaN is."""
-    def generate(context, builder, signed, arguments):
-        most = arguments[1] if limit is LANES else _in_all_lanes(builder, arguments[1])
-        beyond = builder.fcmp_unordered('>', arguments[0], most)
-        bits = builder.bitcast(beyond, ir.IntType(WIDTH))
-        return builder.icmp_unsigned('==', bits, ir.Constant(ir.IntType(WIDTH), 0))
-    return types.boolean(LANES, limit), generate
-
-
-@intrinsic
 def gather(typing_context, array, indices, first, shift):
     """Return the doubles array[indices[first + l] + shift], lane by lane; none below 0."""
     def generate(context, builder, signed, arguments):
-        lanes = ir.Constant(_VECTOR, ir.Undefined)
+        lanes = ir.Constant(VECTOR, ir.Undefined)
         for k, place in enumerate(_places(context, builder, signed, arguments)):
             lane = ir.Constant(ir.IntType(32), k)
             lanes = builder.insert_element(lanes, builder.load(place), lane)
@@ -219,28 +190,6 @@ def _places(context, builder, signed, arguments):
         index = builder.load(builder.gep(start, [ir.Constant(ir.IntType(64), k)]))
         places.append(builder.gep(data, [builder.add(index, shift)]))
     return places
-
-
-@intrinsic
-def at_most(typing_context, lanes, limit):
-    """Return the lanes, or the limit (a float or lanes) where they are not below it."""
-    return LANES(LANES, limit), _limited('<')
-
-
-@intrinsic
-def at_least(typing_context, lanes, limit):
-    """Return the lanes, or the limit (a float or lanes) where they are not above it."""
-    return LANES(LANES, limit), _limited('>')
-
-
-def _limited(comparison):
-    def generate(context, builder, signed, arguments):
-        lanes, limit = arguments
-        if signed.args[1] is not LANES:
-            limit = _in_all_lanes(builder, limit)
-        inside = builder.fcmp_ordered(comparison, lanes, limit)
-        return builder.select(inside, lanes, limit)
-    return generate
 
 
 def _chosen(builder, one, other, places):
@@ -273,7 +222,7 @@ def look_up(typing_context, table, start, places):
         odd = _chosen(builder, pairs[1], pairs[3], (0, 1, 2, 3))
         low = _chosen(builder, even, odd, (0, 4, 2, 6))
         high = _chosen(builder, even, odd, (1, 5, 3, 7))
-        rest = builder.fsub(places, builder.sitofp(whole, _VECTOR))
+        rest = builder.fsub(places, builder.sitofp(whole, VECTOR))
         return context.make_tuple(builder, signed.return_type, (low, high, rest))
     return types.UniTuple(LANES, 3)(table, types.intp, LANES), generate
 

@@ -7,8 +7,9 @@ alone then does these steps, and finds the limit, or passes it, as it always doe
 """
 
 from hydra_actuator.core.advance import LOOK_EVERY, read_inputs
+from hydra_actuator.core.choices import all_at_most
 from hydra_actuator.core.compilation import formula, kernel
-from hydra_actuator.core.lanes import all_at_most, element, WIDTH
+from hydra_actuator.core.lanes import element, WIDTH
 from hydra_actuator.core.together.exchange import enter, leave
 from hydra_actuator.core.together.step import step_together
 

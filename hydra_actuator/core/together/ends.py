@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ends without gas, one in each lane; see hydra_actuator.core.end."""
 
+from hydra_actuator.core.choices import at_least, where_at_most
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.end import End, relation_of, SERIES_REACH, steering_series
 from hydra_actuator.core.fluid import compression_series, SERIES_LIMIT
-from hydra_actuator.core.lanes import at_least, element, where_at_most
+from hydra_actuator.core.lanes import element
 from hydra_actuator.core.orifice import NO_STEP, STEP_TOLERANCE
 
 

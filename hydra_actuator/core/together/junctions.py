@@ -7,10 +7,11 @@ solved one by one by the formulas for one: an accumulator, a pump at its largest
 are a ring, seals, a piston at its stop.
 """
 
+from hydra_actuator.core.choices import all_at_most
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.fluid import riemann_variable
 from hydra_actuator.core.junctions import solve_junction
-from hydra_actuator.core.lanes import all_at_most, element, load, put, WIDTH
+from hydra_actuator.core.lanes import element, load, put, WIDTH
 from hydra_actuator.core.records import ORIFICE, PISTON, PRESSURE, PUMP, VALVE
 from hydra_actuator.core.together.ends import end_in_lanes
 from hydra_actuator.core.together.orifices import is_ring, solve_edges, solve_port

@@ -5,18 +5,16 @@ Ports and open edges of four valves, one in each lane.
 See hydra_actuator.core.orifice and hydra_actuator.core.valve.
 """
 
-from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.end import End
-from hydra_actuator.core.lanes import (
+from hydra_actuator.core.choices import (
     all_at_most,
     at_least,
     at_most,
-    element,
-    multiply_add,
-    put,
     where_at_most,
     where_positive,
 )
+from hydra_actuator.core.compilation import formula
+from hydra_actuator.core.end import End
+from hydra_actuator.core.lanes import element, multiply_add, put
 from hydra_actuator.core.orifice import MOST_PASSES, orifice_flow
 from hydra_actuator.core.together.ends import end_in_lanes, relation_in_lanes, still_moves
 from hydra_actuator.core.valve import A, B, I, J

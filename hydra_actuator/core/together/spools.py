@@ -3,16 +3,9 @@
 
 import math
 
+from hydra_actuator.core.choices import at_least, at_most, where_at_most, where_positive
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.lanes import (
-    at_least,
-    at_most,
-    element,
-    load,
-    put,
-    where_at_most,
-    where_positive,
-)
+from hydra_actuator.core.lanes import element, load, put
 from hydra_actuator.core.records import VALVE
 from hydra_actuator.core.valve import LEAST_CONDUCTANCE, let_go
 

@@ -14,17 +14,9 @@ from hydra_actuator.core.chamber import (
     wave_before_face,
     wave_to_node,
 )
+from hydra_actuator.core.choices import where_at_most
 from hydra_actuator.core.compilation import formula
-from hydra_actuator.core.lanes import (
-    element,
-    gather,
-    load,
-    put,
-    scatter,
-    store,
-    where_at_most,
-    WIDTH,
-)
+from hydra_actuator.core.lanes import element, gather, load, put, scatter, store, WIDTH
 from hydra_actuator.core.line import beyond_by_cubic, LONG, new_waves_of, wave_between
 from hydra_actuator.core.together.junctions import solve_junctions
 from hydra_actuator.core.together.spools import move_spools_together
