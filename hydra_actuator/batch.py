@@ -145,6 +145,9 @@ def _some(number: int, runs: list[Run], drive: tuple, output: Path) -> dict[str,
 
     def tell(share: float) -> None:
         _shares[number] = share * len(runs)
+        # an interrupt may have been swallowed where compiled code was being loaded
+        if _ended.is_set():
+            raise KeyboardInterrupt
 
     signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
