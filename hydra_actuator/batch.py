@@ -102,8 +102,6 @@ def simulate_batch(runs: list[Run], drive: tuple[Signal, float, float | None], o
             # asked this one alone
             ended.set()
             pool.shutdown(wait=False, cancel_futures=True)
-            for worker in multiprocessing.active_children():
-                os.kill(worker.pid, signal.SIGINT)
             raise
     return {run.name: told[run.name] for run in runs}
 
@@ -145,7 +143,7 @@ def _some(number: int, runs: list[Run], drive: tuple, output: Path) -> dict[str,
 
     def tell(share: float) -> None:
         _shares[number] = share * len(runs)
-        # an interrupt may have been swallowed where compiled code was being loaded
+        # whoever was interrupted, and if it was swallowed where compiled code was being loaded
         if _ended.is_set():
             raise KeyboardInterrupt
 

@@ -70,7 +70,11 @@ def group(parameters: Sequence[Parameters]) -> list[list[int]]:
 
 
 class SideBySide:
-    """Four actuators that advance at once where they can; see hydra_actuator.core.together."""
+    """
+    Four actuators that advance at once where they can; see hydra_actuator.core.together.
+
+    Their balance of mass (Actuator.tally) begins anew with each advance at once.
+    """
 
     def __init__(self, actuators: Sequence[Actuator]) -> None:
         """Take WIDTH actuators of one kind and make the kernel ready."""

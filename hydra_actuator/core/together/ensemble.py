@@ -4,8 +4,7 @@ Four actuators side by side, one in each lane: a structure of arrays.
 
 What all have alike (domains, junctions, where a domain's nodes begin) stands once; every number
 of theirs stands WIDTH times, lane l of element e at WIDTH e + l. Their meshes differ: each lane
-has its own step time and its own last node of every domain. A shadow of each state keeps what
-is solved one by one (spools, piston, pump), and is copied back with the rest, or not at all.
+has its own step time and its own last node of every domain.
 """
 
 from dataclasses import dataclass, replace

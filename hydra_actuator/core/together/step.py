@@ -2,9 +2,8 @@
 """
 One time step of four actuators, one in each lane: hydra_actuator.core.step, lane by lane.
 
-Ghosts, sweep, arriving waves, orifices and new level work on all lanes at once with the formulas
-of the step alone; spools, pump, piston, tank and a valve whose edges are a ring go one by one.
-Each lane has the bits it has alone.
+Each lane has the bits it has alone: the formulas are those of the step alone. What few have goes
+one by one; see hydra_actuator.core.together.junctions.
 """
 
 from hydra_actuator.core.chamber import (
