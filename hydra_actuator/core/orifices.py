@@ -14,8 +14,8 @@ hydra_actuator.core.end.
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.end import End
 from hydra_actuator.core.lanes import gather, load, scatter, WIDTH
+from hydra_actuator.core.orifice_lanes import solve_orifices
 from hydra_actuator.core.records import ORIFICE, VALVE
-from hydra_actuator.core.together.orifices import solve_orifices
 import numpy as np
 
 EDGES = 4               # of a valve; the ports' K' stand behind those of its edges

@@ -5,46 +5,13 @@ Ports and open edges of four valves, one in each lane.
 See hydra_actuator.core.orifice and hydra_actuator.core.valve.
 """
 
-from hydra_actuator.core.choices import (
-    all_at_most,
-    at_least,
-    at_most,
-    where_at_most,
-    where_positive,
-)
+from hydra_actuator.core.choices import all_at_most, at_least, at_most, where_positive
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.end import End
-from hydra_actuator.core.lanes import element, multiply_add, put
-from hydra_actuator.core.orifice import MOST_PASSES, orifice_flow
-from hydra_actuator.core.together.ends import end_in_lanes, relation_in_lanes, still_moves
+from hydra_actuator.core.lanes import element, put
+from hydra_actuator.core.orifice_lanes import solve_orifices
+from hydra_actuator.core.together.ends import end_in_lanes
 from hydra_actuator.core.valve import A, B, I, J
-
-
-@formula
-def solve_orifices(end_1, end_2, coefficient, leakage):
-    """Return (v_1, v_2, whether the series hold) of WIDTH orifices: `solve_orifice`."""
-    v_1, v_2 = end_1.velocity, end_2.velocity
-    nothing = 0.0 * coefficient
-    unsettled, strain = nothing + 1.0, nothing
-    for _ in range(MOST_PASSES):
-        (p_1, q_1, z_1, flatness_1), strain_1 = relation_in_lanes(end_1, v_1)
-        (p_2, q_2, z_2, flatness_2), strain_2 = relation_in_lanes(end_2, v_2)
-        strain = at_least(strain, at_least(strain_1, strain_2))
-        flow = orifice_flow(
-            multiply_add(z_1, q_1, p_1) - multiply_add(z_2, q_2, p_2), z_1 + z_2,
-            coefficient, leakage)
-        change_1 = (flow - q_1) * flatness_1
-        change_2 = -(flow + q_2) * flatness_2
-        v_1 = where_positive(unsettled, v_1 + change_1, v_1)
-        v_2 = where_positive(unsettled, v_2 + change_2, v_2)
-        unsettled = at_least(
-            still_moves(v_1, change_1, unsettled), still_moves(v_2, change_2, unsettled))
-        if all_at_most(unsettled, nothing):
-            break
-    conducts = coefficient + leakage
-    v_1 = where_at_most(conducts, nothing, nothing, v_1)
-    v_2 = where_at_most(conducts, nothing, nothing, v_2)
-    return v_1, v_2, all_at_most(strain, nothing + 1.0)
 
 
 @formula

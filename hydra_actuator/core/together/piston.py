@@ -6,8 +6,9 @@ from typing import NamedTuple
 from hydra_actuator.core.choices import all_at_most, at_least, where_at_most, where_positive
 from hydra_actuator.core.compilation import formula
 from hydra_actuator.core.lanes import element, load, put
+from hydra_actuator.core.orifice_lanes import relation_in_lanes, still_moves
 from hydra_actuator.core.piston import balance_momentum, force_on_piston, position_after
-from hydra_actuator.core.together.ends import end_in_lanes, relation_in_lanes, still_moves
+from hydra_actuator.core.together.ends import end_in_lanes
 
 # A lane that needs more is done alone.
 MOST_PISTON_PASSES = 12
