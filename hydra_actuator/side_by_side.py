@@ -11,7 +11,6 @@ from collections import defaultdict
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 import copy
-import math
 from pathlib import Path
 
 from hydra_actuator.actuator import Actuator
@@ -23,12 +22,11 @@ from hydra_actuator.core.together.ensemble import build_ensemble, fits
 from hydra_actuator.errors import Failure, InputError
 from hydra_actuator.interruption import Interruption
 from hydra_actuator.kernels import specialised, warm_together
-from hydra_actuator.offline import next_stretch, Run, Stretch
+from hydra_actuator.offline import Stretch
 from hydra_actuator.parameters import ParameterError, Parameters
 from hydra_actuator.parameters.table_hydraulics import LINES
-from hydra_actuator.signals import Hold, Signal
-from hydra_actuator.simulate import check_run, Simulation
-from hydra_actuator.sinks import Rows, RunRecording
+from hydra_actuator.signals import Signal
+from hydra_actuator.simulate import check_run, Course, Simulation
 import numpy as np
 
 # Stretches in a row that some lane's nearness to a limit may spoil, until all go on alone.
@@ -140,41 +138,24 @@ def ready_together(parameters: Sequence[Parameters]) -> None:
 
 
 class _Member:
-    """A run, its sink and where it is."""
+    """A run under way, what it is to do next, and why it failed."""
 
-    def __init__(self, parameters: Parameters, drive: tuple, output: Path | None) -> None:
-        command, duration, rate = drive
-        self.actuator = Actuator(parameters)
-        self._run = Run(self.actuator, Hold() if command is None else command, rate)
-        self._steps = math.ceil(duration / self.actuator.step_time - 1e-6)
-        self._output = output
-        self.sink = (Rows() if output is None else
-                     RunRecording(self.actuator, self._run.instruments, output))
+    def __init__(self, course: Course) -> None:
+        self.course = course
         self.stretch: Stretch | None = None
         self.failure: Exception | None = None
-        self._stretches = self._run.stretches(self._steps, self.sink)
 
     def go_on(self, code: int | None = None) -> None:
         """Take the status of the last stretch and find the next: None at the end."""
         try:
-            self.stretch = next_stretch(self._stretches, code)
+            self.stretch = self.course.next_stretch(code)
         except (InputError, Failure) as error:
             self.stretch, self.failure = None, error
 
     @property
     def share(self) -> float:
         """Return the part that is done."""
-        return 1.0 if self.stretch is None else self._run.step / self._steps
-
-    @property
-    def outcome(self) -> Simulation | Exception:
-        """Return what the run gave, or why it failed."""
-        channels = self.actuator.channels
-        if self.failure is not None:
-            return self.failure
-        if self._output is not None:
-            return Simulation(channels, self._output)
-        return Simulation(channels, None, np.array(self.sink.rows).reshape(-1, channels.width))
+        return 1.0 if self.stretch is None else self.course.share
 
 
 def simulate_side_by_side(
@@ -195,12 +176,18 @@ def simulate_side_by_side(
             members: dict[int, _Member] = {}
             for index in indices:
                 try:
-                    members[index] = _Member(parameters[index], (command, duration, rate),
-                                             None if outputs is None else outputs[index])
-                    closing.callback(members[index].sink.close)
+                    members[index] = _Member(
+                        Course(parameters[index], command, duration, rate))
                 except (InputError, Failure) as error:
                     outcomes[index] = error
             interruption.hold()
+            for index in list(members):
+                try:
+                    closing.callback(members[index].course.begin(
+                        None if outputs is None else outputs[index]))
+                except (InputError, Failure) as error:
+                    outcomes[index] = error
+                    del members[index]
             for _ in _play(list(members.values())):
                 interruption.raise_if_asked()
                 if progress is not None:
@@ -208,7 +195,7 @@ def simulate_side_by_side(
                     progress((done + shares) / len(parameters))
             done += len(indices)
         for index, member in members.items():
-            outcomes[index] = member.outcome
+            outcomes[index] = member.failure or member.course.result()
     return outcomes
 
 
@@ -217,7 +204,7 @@ def _play(members: list[_Member]):
     for member in members:
         member.go_on()
     if len(members) == WIDTH:
-        together = SideBySide([member.actuator for member in members])
+        together = SideBySide([member.course.actuator for member in members])
         while all(member.stretch is not None for member in members):
             codes = together.follow([member.stretch for member in members])
             for member, code in zip(members, codes):
@@ -225,5 +212,5 @@ def _play(members: list[_Member]):
             yield
     for member in members:
         while member.stretch is not None:
-            member.go_on(member.actuator.follow(*member.stretch))
+            member.go_on(member.course.actuator.follow(*member.stretch))
             yield

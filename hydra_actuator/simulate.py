@@ -21,7 +21,7 @@ from hydra_actuator.actuator import Actuator
 from hydra_actuator.channels import Channels
 from hydra_actuator.errors import InputError
 from hydra_actuator.interruption import Interruption
-from hydra_actuator.offline import next_stretch, Run
+from hydra_actuator.offline import next_stretch, Run, Stretch
 from hydra_actuator.parameters import Parameters
 from hydra_actuator.recording.reader import load_recording
 from hydra_actuator.signals import Hold, Signal
@@ -66,23 +66,51 @@ def simulate(parameters: Parameters | None = None, command: Signal | None = None
     """
     check_run(duration, rate)
     with Interruption() as interruption, ExitStack() as closing:
-        actuator = Actuator(parameters)
-        run = Run(actuator, Hold() if command is None else command, rate)
-        steps = math.ceil(duration / actuator.step_time - 1e-6)
+        course = Course(parameters, command, duration, rate)
         interruption.hold()
-        sink = Rows() if output is None else RunRecording(actuator, run.instruments, output)
-        closing.callback(sink.close)
-        stretches = run.stretches(steps, sink)
-        stretch = next_stretch(stretches)
+        closing.callback(course.begin(output))
+        stretch = course.next_stretch()
         while stretch is not None:
-            stretch = next_stretch(stretches, actuator.follow(*stretch))
+            stretch = course.next_stretch(course.actuator.follow(*stretch))
             interruption.raise_if_asked()
             if progress is not None:
-                progress(run.step / steps)
-    if output is not None:
-        return Simulation(actuator.channels, Path(output))
-    rows = np.array(sink.rows).reshape(-1, actuator.channels.width)
-    return Simulation(actuator.channels, None, rows)
+                progress(course.share)
+    return course.result()
+
+
+class Course:
+    """A run of `simulate` under way; whoever has it advances `actuator`."""
+
+    def __init__(self, parameters: Parameters | None, command: Signal | None, duration: float,
+                 rate: float | None) -> None:
+        """Make the actuator ready; arguments and errors as those of `simulate`."""
+        self.actuator = Actuator(parameters)
+        self._run = Run(self.actuator, Hold() if command is None else command, rate)
+        self._steps = math.ceil(duration / self.actuator.step_time - 1e-6)
+
+    def begin(self, output: str | Path | None) -> Callable[[], None]:
+        """Open the recording, if there is to be one; return what closes it."""
+        self._output = output
+        self._sink = (Rows() if output is None else
+                      RunRecording(self.actuator, self._run.instruments, output))
+        self._stretches = self._run.stretches(self._steps, self._sink)
+        return self._sink.close
+
+    def next_stretch(self, code: int | None = None) -> Stretch | None:
+        """Take the status of the last stretch and return the next one, None at the end."""
+        return next_stretch(self._stretches, code)
+
+    @property
+    def share(self) -> float:
+        """Return the part that is done."""
+        return self._run.step / self._steps if self._steps else 1.0
+
+    def result(self) -> Simulation:
+        """Return what the run gave."""
+        channels = self.actuator.channels
+        if self._output is not None:
+            return Simulation(channels, Path(self._output))
+        return Simulation(channels, None, np.array(self._sink.rows).reshape(-1, channels.width))
 
 
 def check_run(duration: float, rate: float | None) -> None:

@@ -107,6 +107,20 @@ def test_recordings_are_those_of_runs_alone(tmp_path):
                               load_recording(tmp_path / f'alone_{k}').rows, equal_nan=True)
 
 
+def test_a_recording_that_cannot_be_is_told_in_its_place_and_the_others_go_on(tmp_path):
+    parameters = sets([{'cylinder.mass': float(mass)} for mass in (4, 8, 16, 32)])
+    outputs = [tmp_path / f'{k}' for k in range(4)]
+    outputs[1].mkdir()
+    (outputs[1] / 'kept').write_text('')
+    together = simulate_side_by_side(parameters, Sine(30.0), 0.01, outputs)
+    with pytest.raises(InputError) as alone:
+        simulate(parameters[1], Sine(30.0), 0.01, outputs[1])
+    assert isinstance(together[1], InputError) and str(together[1]) == str(alone.value)
+    assert [path.name for path in outputs[1].iterdir()] == ['kept']
+    for k in (0, 2, 3):
+        assert len(load_recording(together[k].recording).rows) == 11
+
+
 def test_what_cannot_go_side_by_side_is_in_a_group_of_its_own():
     plain = sets([{'cylinder.mass': 1.0 + k} for k in range(5)])
     odd = sets([{'fluid.cavitation': True, 'tank.pressure': 1e5}, {'valve.leakage': 1e-12},
