@@ -26,6 +26,7 @@ import numpy as np
 
 PIECE = 5              # ticks in one timed piece
 RUN = 1000             # ticks of a timed run
+LEAST_RUNS = 5         # whose median is not that of a moment
 FREQUENCY = 50.0       # [Hz] of the full-stroke sine
 WARM_UP = 0.05         # [s]
 
@@ -158,7 +159,7 @@ def measure_together(duration: float = 1.0,
     works = {'solver, alone': (solve_apart, PIECE),
              'solver, four at once': (solve_together, PIECE), 'run, alone': (run_apart, periods),
              'run, four at once': (run_together, periods)}
-    pieces = max(1, math.ceil(duration / span))
+    pieces = max(LEAST_RUNS, math.ceil(duration / span))
     times = {name: np.empty(pieces) for name in works}
     for k in range(pieces):
         for name, (work, count) in works.items():
